@@ -9,7 +9,7 @@ use holonom::clock::Stopwatch;
 use holonom::error::{Result, percent};
 use holonom::prepared::Overrides;
 use holonom::report::Table;
-use holonom::simplify::{Nearby, Run, Settings, Simplification, Source, registry, simplify};
+use holonom::simplify::{ModelRun, Nearby, Simplification, SimplificationSettings, Source, registry, simplify};
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
@@ -23,7 +23,8 @@ const NAMED: usize = 3;
 fn found(path: &Path, within: f64) -> Result<(Simplification, f64)> {
     let source = Source::load(path, &Overrides::default())?;
     let with = |nearby| {
-        let settings = Settings { within, budget: Some(BUDGET), nearby, ..Settings::default() };
+        let settings =
+            SimplificationSettings { within, budget: Some(BUDGET), nearby, ..SimplificationSettings::default() };
         let watch = Stopwatch::start();
         let found = simplify(&source, &settings, registry(), &|| false, &mut |_, _| ());
         (found, watch.cpu().as_secs_f64())
@@ -40,7 +41,7 @@ fn found(path: &Path, within: f64) -> Result<(Simplification, f64)> {
 
 fn row((found, seconds): &(Simplification, f64)) -> Vec<String> {
     let Simplification { richest, chosen, within, runs, robustness, warnings, .. } = found;
-    let size = |run: &Run| format!("{}, {}", run.velocities, run.constraints);
+    let size = |run: &ModelRun| format!("{}, {}", run.velocities, run.constraints);
     let nearby = robustness.as_ref().map_or("-".to_string(), |near| format!("{} of {}", near.kept, near.counted));
     let what: Vec<&String> = found.left_out().flat_map(|trial| &trial.what).collect();
     let more = if what.len() > NAMED { format!("; {} more", what.len() - NAMED) } else { String::new() };

@@ -6,7 +6,7 @@ use holonom::clock::{self, Stopwatch, TICK};
 use holonom::method_spec::MethodSpec;
 use holonom::prepared::Overrides;
 use holonom::study::stress::{
-    Axis, AxisPlace, Cell, Change, Level, Limits, Map, Quantity, Status, StepVerdict, StressParameter, Stressed,
+    Axis, AxisPlace, Cell, CellChange, Level, Limits, Map, Quantity, Status, StepVerdict, StressParameter, Stressed,
     Subject, find, maps, pair, stress,
 };
 use std::path::Path;
@@ -44,16 +44,16 @@ fn the_verdict_on_baumgarte_in_numbers() {
     let subject = Subject::of_equations("arm", &RobotArm, method, until(10.0), START.motion()).unwrap();
     let row = |formulation: &str, projection: &str| {
         let [formulation, projection] = [formulation, projection].map(|text| MethodSpec::parse(text).unwrap());
-        AxisPlace::named("", vec![Change::Stabilization(formulation, projection)])
+        AxisPlace::named("", vec![CellChange::Stabilization(formulation, projection)])
     };
     let rows = vec![
         row("baumgarte:alpha=6,beta=8.366600265340756", "none"),
-        AxisPlace::named("", vec![Change::OwnGains]),
+        AxisPlace::named("", vec![CellChange::OwnGains]),
         row("index1", "manifold"),
     ];
     let y = Axis { name: "method".into(), unit: String::new(), entries: rows };
     let x = Axis::of(parameter("step"), vec![0.01, 0.005, 0.001]);
-    let integrator = |name: &str| AxisPlace::named(name, vec![Change::Integrator(MethodSpec::named(name))]);
+    let integrator = |name: &str| AxisPlace::named(name, vec![CellChange::Integrator(MethodSpec::named(name))]);
     let methods = ["heun", "rk4"].map(integrator).to_vec();
     let map = Map { methods, ..pair(&subject, x, y, Quantity::Velocity) };
     let stressed = stress(&subject, map, limits(200_000), &|| {});
@@ -134,7 +134,7 @@ fn ends_are_told_apart() {
     // An adaptive method has no fixed step in implicit codes of other libraries.
     let mut refused = own(axis("step=1e-3..1e-2:2"), axis("height=1..2:2"));
     let [formulation, none] = ["ggl", "none"].map(MethodSpec::named);
-    let bdf = vec![Change::Integrator(MethodSpec::named("bdf")), Change::Stabilization(formulation, none)];
+    let bdf = vec![CellChange::Integrator(MethodSpec::named("bdf")), CellChange::Stabilization(formulation, none)];
     refused.methods = vec![AxisPlace::named("bdf", bdf)];
     let refused = stress(&subject, refused, limits(200_000), &|| {});
     assert!(all(&refused, |cell| cell.status == Status::Refused && cell.steps == 0), "{:?}", refused.cells);

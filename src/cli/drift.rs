@@ -8,7 +8,7 @@ use crate::method_spec::MethodSpec;
 use crate::prepared::Model;
 use crate::report::{Ending, Shown, Stabilizations};
 use crate::study::{StabilizedRun, drift_under_stabilizations, stabilizations};
-use crate::view::{Extras, Run, page};
+use crate::view::{Extras, ShownMotion, page};
 use std::process::ExitCode;
 
 #[derive(clap::Args)]
@@ -54,10 +54,10 @@ fn view(prepared: &Model, runs: &[StabilizedRun]) -> Option<String> {
     Some(page(&motion_of(prepared, best), &Extras { ghosts, ..Extras::default() }))
 }
 
-fn motion_of<'a>(prepared: &'a Model, run: &'a StabilizedRun) -> Run<'a> {
+fn motion_of<'a>(prepared: &'a Model, run: &'a StabilizedRun) -> ShownMotion<'a> {
     let ending = Ending::of(run.failure.as_ref(), &run.drift, run.energy.as_ref());
     let rows = Shown::of_trajectory(ending, &run.motion).rows;
-    Run { label: run.method.clone(), rows, ..Run::new(prepared, &run.motion) }
+    ShownMotion { label: run.method.clone(), rows, ..ShownMotion::new(prepared, &run.motion) }
 }
 
 /// Refuses a formulation or a projection, since all of them are compared.

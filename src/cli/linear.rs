@@ -3,7 +3,7 @@
 use super::common::{MethodOptions, Output, SceneOptions, Talk, number, unprintable};
 use crate::analysis::Range;
 use crate::error::{Error, Result};
-use crate::linearize::{Chart, Entry, Linear, Operating, State, at_rest, kinks, states_of, tighten};
+use crate::linearize::{Chart, Linear, LinearizationMethod, Operating, State, at_rest, kinks, states_of, tighten};
 use crate::method_spec::MethodSpec;
 use crate::prepared::Model;
 use crate::report::linear::stem_at;
@@ -104,7 +104,7 @@ impl ChartOptions {
 impl ModelOptions {
     pub fn request(&self) -> Result<Linear> {
         let method = MethodSpec::parse(&self.method).and_then(|method| {
-            method.entry::<Entry>()?;
+            method.entry::<LinearizationMethod>()?;
             Ok(method)
         });
         Ok(Linear { method: method.map_err(|error| error.under("--method"))?, chart: self.chart.chart() })

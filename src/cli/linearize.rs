@@ -15,7 +15,7 @@ use crate::report::linear::{
 };
 use crate::report::{Answer, Folder, uncertain_kinds};
 use crate::sweep::Range;
-use crate::view::{Extras, Run, page, still};
+use crate::view::{Extras, ShownMotion, page, still};
 use serde_json::Value;
 use std::path::{Path, PathBuf};
 
@@ -248,7 +248,7 @@ fn add(
     let LinearizationPoint { t, is_equilibrium, .. } = first.point;
     if args.view {
         let still = still(prepared, &first.point);
-        let page = page(&Run::new(prepared, &still), &Extras { model: Some(first), ..Extras::default() });
+        let page = page(&ShownMotion::new(prepared, &still), &Extras { model: Some(first), ..Extras::default() });
         folder.write(&format!("{}.html", stem_at("view", t)), page.as_bytes())?;
     }
     let linear = NamedModel { scene: &prepared.name, names: &prepared.system().facts().names, model: first };

@@ -12,7 +12,7 @@ use crate::report::mechanism::{
 use crate::report::{Ending, FinishedRun, Folder, Format, Origin, Shown, outputs_figure};
 use crate::simulate::Span;
 use crate::trajectory::Trajectory;
-use crate::view::{Run, glb};
+use crate::view::{ShownMotion, glb};
 use serde::Serialize;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
@@ -265,7 +265,7 @@ impl Args {
             self.seal(folder, "plot-outputs", prepared, drawn)?;
         }
         if self.gltf {
-            let run = Run::new(prepared, motion.trajectory());
+            let run = ShownMotion::new(prepared, motion.trajectory());
             folder.write("motion.glb", &glb(&run, 1000))?;
             self.seal(folder, "motion", prepared, drawn)?;
         }

@@ -4,7 +4,7 @@ use super::common::{Output, SceneOptions, Talk, duration, fail, number};
 use super::interrupt;
 use crate::error::{Error, Result};
 use crate::prepared::Overrides;
-use crate::simplify::{Nearby, Norm, Settings, Source, registry, simplify};
+use crate::simplify::{Nearby, Norm, SimplificationSettings, Source, registry, simplify};
 use clap::ValueEnum;
 use std::process::ExitCode;
 use std::time::Duration;
@@ -92,9 +92,9 @@ pub fn run(args: Args) -> Result<ExitCode> {
 }
 
 impl Args {
-    fn settings(&self) -> Settings {
+    fn settings(&self) -> SimplificationSettings {
         let samples = self.samples.map(usize::from);
-        Settings {
+        SimplificationSettings {
             within: self.within,
             norm: match self.norm {
                 NormOption::Range => Norm::Range,

@@ -9,7 +9,7 @@ use crate::files::{mat, npz};
 use crate::prepared::Model;
 use crate::report::{self, Answer, Ending, Folder, RowFiles, Shown, Summary};
 use crate::system::Scratch;
-use crate::view::{Extras, Run, page};
+use crate::view::{Extras, ShownMotion, page};
 use serde::Serialize;
 use std::cell::RefCell;
 use std::process::ExitCode;
@@ -133,12 +133,12 @@ impl Answer for Simulated<'_> {
         folder.figure("drift", report::drift_figure(name, record, &shown, length))?;
         folder.figure("energy", report::energy_figure(name, record, &shown))?;
         if args.view && shown.rows > 0 {
-            let run = Run {
+            let run = ShownMotion {
                 rows: shown.rows,
                 drift: &record.drift_rows,
                 energy: &record.ledger_rows,
                 bars: summary.error.as_ref(),
-                ..Run::new(prepared, &record.trajectory)
+                ..ShownMotion::new(prepared, &record.trajectory)
             };
             folder.write(
                 "view.html",

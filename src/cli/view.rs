@@ -10,7 +10,7 @@ use crate::prepared::{Model, Overrides};
 use crate::report::{Answer, Ending, FinishedRun, Folder, Shown};
 use crate::simulate::Span;
 use crate::trajectory::Trajectory;
-use crate::view::{Extras, ROWS, Run, page};
+use crate::view::{Extras, ROWS, ShownMotion, page};
 use serde::Serialize;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
@@ -162,13 +162,13 @@ impl Seen {
         self.failure.as_ref().map(stopped).into_iter().chain(self.shown.note()).collect()
     }
 
-    fn run(&self, label: &str) -> Run<'_> {
-        Run {
+    fn run(&self, label: &str) -> ShownMotion<'_> {
+        ShownMotion {
             label: label.to_string(),
             rows: self.shown.rows,
             drift: &self.drift,
             energy: &self.energy,
-            ..Run::new(&self.prepared, &self.trajectory)
+            ..ShownMotion::new(&self.prepared, &self.trajectory)
         }
     }
 }

@@ -152,7 +152,7 @@ impl Built {
 }
 
 /// A method as the command line lists it.
-pub struct Entry {
+pub struct LinearizationMethod {
     /// Name on the command line.
     pub name: &'static str,
     /// Options that it takes.

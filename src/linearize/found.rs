@@ -6,7 +6,7 @@ use crate::error::Warning;
 
 /// Result at one state.
 #[derive(Clone)]
-pub(super) struct Found {
+pub(super) struct StateResult {
     pub state: State,
     /// The eigenvalues.
     pub sample: LociPoint,
@@ -17,11 +17,11 @@ pub(super) struct Found {
     pub doubt: Option<Warning>,
 }
 
-impl Found {
+impl StateResult {
     /// The eigenvalues of a model at a time or value.
     pub fn new(operating: &Operating, variation: &Variation, at: f64, model: LinearModel) -> Self {
         let doubt = operating.doubt.clone().or(model.doubt());
-        Found {
+        StateResult {
             state: operating.state.clone(),
             is_equilibrium: model.point.is_equilibrium,
             turning: model.point.axes.map(|spin| spin.speed()),

@@ -18,18 +18,18 @@ impl Node {
         Node { value: mode.value, slope, shape: mode.shape.clone() }
     }
 
-    fn side(&self) -> Side {
+    fn side(&self) -> HalfPlane {
         match self.value.im {
-            im if im > 0.0 => Side::Upper,
-            im if im < 0.0 => Side::Lower,
-            _ => Side::Real,
+            im if im > 0.0 => HalfPlane::Upper,
+            im if im < 0.0 => HalfPlane::Lower,
+            _ => HalfPlane::Real,
         }
     }
 }
 
 /// Half plane of an eigenvalue, or the real axis.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Side {
+enum HalfPlane {
     Upper,
     Real,
     Lower,
@@ -37,7 +37,7 @@ enum Side {
 
 /// The eigenvalues at one end of a step.
 struct Set {
-    sides: Vec<Side>,
+    sides: Vec<HalfPlane>,
     /// Index of the other one of a conjugate pair.
     partner: Vec<Option<usize>>,
     values: Vec<Complex<f64>>,
@@ -65,8 +65,8 @@ pub(super) fn matching(
 }
 
 /// True unless a branch would cross the real axis from one half plane to the other.
-fn is_allowed(from: Side, to: Side) -> bool {
-    !matches!((from, to), (Side::Upper, Side::Lower) | (Side::Lower, Side::Upper))
+fn is_allowed(from: HalfPlane, to: HalfPlane) -> bool {
+    !matches!((from, to), (HalfPlane::Upper, HalfPlane::Lower) | (HalfPlane::Lower, HalfPlane::Upper))
 }
 
 fn are_equal(a: Complex<f64>, b: Complex<f64>) -> bool {
@@ -141,11 +141,11 @@ fn shapes<'a>(n: usize, nodes: impl Iterator<Item = &'a Node>) -> ComplexMatrix 
 
 impl Set {
     fn new<'a>(nodes: impl Iterator<Item = &'a Node>) -> Self {
-        let (sides, values): (Vec<Side>, Vec<Complex<f64>>) = nodes.map(|node| (node.side(), node.value)).unzip();
+        let (sides, values): (Vec<HalfPlane>, Vec<Complex<f64>>) = nodes.map(|node| (node.side(), node.value)).unzip();
         let mut partner = vec![None; sides.len()];
-        for i in (0..sides.len()).filter(|&i| sides[i] == Side::Upper) {
+        for i in (0..sides.len()).filter(|&i| sides[i] == HalfPlane::Upper) {
             let off = |j: &usize| (values[*j].conj() - values[i]).norm();
-            let free = (0..sides.len()).filter(|&j| sides[j] == Side::Lower && partner[j].is_none());
+            let free = (0..sides.len()).filter(|&j| sides[j] == HalfPlane::Lower && partner[j].is_none());
             if let Some(j) = free.min_by(|a, b| off(a).total_cmp(&off(b))) {
                 (partner[i], partner[j]) = (Some(j), Some(i));
             }
@@ -155,7 +155,7 @@ impl Set {
 
     /// Returns each pair as (index with im > 0, index with im < 0).
     fn pairs(&self) -> Vec<(usize, usize)> {
-        let upper = (0..self.sides.len()).filter(|&i| self.sides[i] == Side::Upper);
+        let upper = (0..self.sides.len()).filter(|&i| self.sides[i] == HalfPlane::Upper);
         upper.filter_map(|i| Some((i, self.partner[i]?))).collect()
     }
 }
@@ -163,9 +163,9 @@ impl Set {
 /// True if every pair is matched to a pair or becomes real as a whole, and every pair is reached as a whole.
 fn is_symmetric(found: &[Option<usize>], from: &Set, to: &Set) -> bool {
     from.pairs().into_iter().all(|(upper, lower)| match (found[upper], found[lower]) {
-        (Some(a), Some(b)) if to.sides[a] == Side::Real => to.sides[b] == Side::Real,
+        (Some(a), Some(b)) if to.sides[a] == HalfPlane::Real => to.sides[b] == HalfPlane::Real,
         (Some(a), Some(b)) => to.partner[a] == Some(b),
-        (Some(a), None) | (None, Some(a)) => to.sides[a] == Side::Real,
+        (Some(a), None) | (None, Some(a)) => to.sides[a] == HalfPlane::Real,
         (None, None) => true,
     })
 }
@@ -195,7 +195,7 @@ fn pairs_first(cost: &Matrix, from: &Set, to: &Set) -> Vec<Option<usize>> {
 fn order(found: &mut [Option<usize>], from: &Set, to: &Set) {
     for (upper, lower) in from.pairs() {
         if let (Some(a), Some(b)) = (found[upper], found[lower])
-            && to.sides[a] == Side::Real
+            && to.sides[a] == HalfPlane::Real
             && to.values[a].re < to.values[b].re
         {
             found.swap(upper, lower);
@@ -205,7 +205,7 @@ fn order(found: &mut [Option<usize>], from: &Set, to: &Set) {
         let above = found.iter().position(|place| *place == Some(upper));
         let below = found.iter().position(|place| *place == Some(lower));
         if let (Some(a), Some(b)) = (above, below)
-            && from.sides[a] == Side::Real
+            && from.sides[a] == HalfPlane::Real
             && from.values[a].re < from.values[b].re
         {
             found.swap(a, b);

@@ -1,6 +1,6 @@
 //! The registry of methods of linearization, and the linear model by one of them.
 
-use super::entry::{Built, Entry, Linear};
+use super::entry::{Built, Linear, LinearizationMethod};
 use super::minimal::MCS;
 use super::slopes::{ModelRate, Slope};
 use super::spectrum::{Spectrum, spectrum};
@@ -13,11 +13,11 @@ use crate::system::MechanicalSystem;
 use std::time::Instant;
 
 /// Returns every method, in the order of the documentation.
-pub fn registry() -> &'static [Entry] {
+pub fn registry() -> &'static [LinearizationMethod] {
     &[MCS, redundant::RCS, BAUMGARTE, PENALTY, AUGMENTED_LAGRANGIAN, FORCE_PROJECTION]
 }
 
-impl Listed for Entry {
+impl Listed for LinearizationMethod {
     const KIND: &'static str = "method";
 
     fn registry() -> &'static [Self] {
@@ -94,7 +94,7 @@ impl Variation<'_> {
 /// # Errors
 /// An unknown method or option; a chart that does not exist there.
 pub(super) fn build(variation: &mut Variation, request: &Linear) -> Result<Built> {
-    let entry = request.method.entry::<Entry>()?;
+    let entry = request.method.entry::<LinearizationMethod>()?;
     if variation.has_drivers() {
         variation.prescribed()?;
     }
@@ -114,7 +114,7 @@ pub(super) struct Solved {
 /// # Errors
 /// See [`Variation::linearize`].
 pub(super) fn solve(variation: &mut Variation, request: &Linear) -> Result<Solved> {
-    request.method.entry::<Entry>()?;
+    request.method.entry::<LinearizationMethod>()?;
     refuse_large(variation.velocities())?;
     let clock = Instant::now();
     let reduction = reduction::measure(variation, request)?;

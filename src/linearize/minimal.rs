@@ -1,9 +1,9 @@
 //! Minimal coordinates (MCS): the model in a chart of the directions that the constraints allow.
 
 use super::changes::beside;
-use super::entry::{Built, Entry};
+use super::entry::{Built, LinearizationMethod};
 use super::input_states::InputStates;
-use super::perturbation::{Parts, Perturbation};
+use super::perturbation::{ColumnBlocks, Perturbation};
 use super::response::observe;
 use super::{Chart, Coordinates, Matrix, Response, Variation};
 use crate::error::Result;
@@ -17,7 +17,7 @@ pub struct Minimal {
 }
 
 /// Minimal coordinates: see [`minimal`].
-pub(super) const MCS: Entry = Entry {
+pub(super) const MCS: LinearizationMethod = LinearizationMethod {
     name: "mcs",
     options: &[],
     build: |variation, request| {
@@ -51,7 +51,7 @@ pub(super) fn restrict(
     let changes = coordinates.changes();
     let perturbation = Perturbation::new(variation, &changes, |i, j| lift.along(i, j));
     let response = response(variation, &perturbation)?;
-    let Parts { state, input_states, inputs } = perturbation.split(&(b * &response.vdot));
+    let ColumnBlocks { state, input_states, inputs } = perturbation.split(&(b * &response.vdot));
     let mut a = Matrix::zeros(k + n, k + n);
     a.view_mut((0, 0), (k, k)).copy_from(turn);
     a.view_mut((0, k), (k, k)).fill_with_identity();

@@ -68,7 +68,7 @@ pub use comparison::{Comparison, compare};
 pub use coordinates::{Coordinates, parallel};
 #[doc(hidden)]
 pub use entry::Built;
-pub use entry::{Entry, Linear};
+pub use entry::{Linear, LinearizationMethod};
 #[doc(hidden)]
 pub use floquet::Defect;
 pub use floquet::{Floquet, floquet};

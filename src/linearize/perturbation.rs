@@ -21,7 +21,7 @@ pub struct Perturbation {
 }
 
 /// A matrix cut into the columns of the state, of the states of inputs, and of inputs.
-pub struct Parts {
+pub struct ColumnBlocks {
     pub state: Matrix,
     pub input_states: Matrix,
     pub inputs: Matrix,
@@ -84,7 +84,7 @@ impl Perturbation {
 
     /// The forces of the inputs alone, of each of their states and of each input.
     pub fn input_forces(&self) -> [Matrix; 2] {
-        let Parts { input_states, inputs, .. } = self.split(&self.force);
+        let ColumnBlocks { input_states, inputs, .. } = self.split(&self.force);
         [input_states, inputs]
     }
 
@@ -92,15 +92,15 @@ impl Perturbation {
     pub fn input_rows(&self, row: DaeRow) -> [Matrix; 2] {
         let [u, rate, second] = &self.rows;
         let rows = u * row.position + rate * row.velocity + second * row.acceleration;
-        let Parts { input_states, inputs, .. } = self.split(&rows);
+        let ColumnBlocks { input_states, inputs, .. } = self.split(&rows);
         [input_states, inputs]
     }
 
     /// The columns of a matrix by what they belong to.
-    pub fn split(&self, matrix: &Matrix) -> Parts {
+    pub fn split(&self, matrix: &Matrix) -> ColumnBlocks {
         let [states, input_states] = self.counts;
         let first_input = states + input_states;
-        Parts {
+        ColumnBlocks {
             state: matrix.columns(0, states).clone_owned(),
             input_states: matrix.columns(states, input_states).clone_owned(),
             inputs: matrix.columns(first_input, matrix.ncols() - first_input).clone_owned(),

@@ -1,6 +1,6 @@
 //! Response of v' and lambda of a formulation to changes of the state and of the inputs.
 
-use super::perturbation::{Parts, Perturbation};
+use super::perturbation::{ColumnBlocks, Perturbation};
 use super::variation::at_state;
 use super::{Matrix, Variation};
 use crate::error::Result;
@@ -33,7 +33,7 @@ impl Response {
 }
 
 /// Returns dy of each change. What is round-off of the products that add up to it is zero.
-pub(super) fn observe(outputs: &OutputTangent, perturbation: &Perturbation, response: &Response) -> Parts {
+pub(super) fn observe(outputs: &OutputTangent, perturbation: &Perturbation, response: &Response) -> ColumnBlocks {
     let OutputTangent { q, v, vdot, lambda, u, udot } = outputs;
     let Perturbation { changes, u: [du, rate, _], .. } = perturbation;
     let products =

@@ -1,6 +1,6 @@
 //! Linear models at many states: along a motion, or over a parameter.
 
-use super::found::Found;
+use super::found::StateResult;
 use super::method::{build, solve};
 use super::states::{Walk, follow};
 use super::thresholds::{self, Threshold};
@@ -80,7 +80,7 @@ pub struct Gap {
     pub error: Error,
 }
 
-type Outcome = (f64, Result<Found>);
+type Outcome = (f64, Result<StateResult>);
 
 /// Returns the eigenvalues at `times` (increasing) of the scene's motion; `progress` is called for each. Where the
 /// motion cannot go on, the later times are gaps. Where the matching of modes is not clear, states between the times
@@ -98,7 +98,7 @@ pub fn loci_along<'a>(prepared: &'a Model, request: &Linear, times: &[f64], prog
         (t, state.and_then(|state| eigenvalues_after(previous, prepared, state, t, request, &steps)))
     };
     let outcomes: Vec<Outcome> = states.into_par_iter().map_init(|| None, outcome).collect();
-    let between = |before: &Found, t: f64| {
+    let between = |before: &StateResult, t: f64| {
         let state = follow(prepared, &before.state, t)?;
         eigenvalues_at(&mut state.variation(prepared)?, prepared, state, t, request, &[])
     };
@@ -114,7 +114,7 @@ fn eigenvalues_after<'a>(
     t: f64,
     request: &Linear,
     steps: &[f64],
-) -> Result<Found> {
+) -> Result<StateResult> {
     let mut variation = if let Some(mut variation) = previous.take() {
         variation.operate_at(state.t, &state.q, &state.v)?;
         variation
@@ -135,7 +135,7 @@ fn eigenvalues_at(
     t: f64,
     request: &Linear,
     steps: &[f64],
-) -> Result<Found> {
+) -> Result<StateResult> {
     let solved = solve(variation, request)?;
     let point = variation.point.clone();
     let slopes = solved.slopes(steps, |step| {
@@ -146,7 +146,7 @@ fn eigenvalues_at(
         variation.operate_at(point.t, &point.q, &point.v)?;
     }
     let model = solved.finish(variation, request);
-    Ok(Found::new(&Operating::moving(prepared, state), variation, t, model).with_slopes(slopes))
+    Ok(StateResult::new(&Operating::moving(prepared, state), variation, t, model).with_slopes(slopes))
 }
 
 /// Operates a step along the tangent of the motion.
@@ -181,7 +181,7 @@ pub fn loci_over(variants: &Variants, at: At, request: &Linear, progress: impl F
         let outcome = |&value: &f64| (value, models.found(value, None, &models.steps(value)));
         values.par_iter().map(outcome).inspect(|_| progress()).collect()
     };
-    let between = |before: &Found, value: f64| models.found(value, Some(&before.state.q), &[]);
+    let between = |before: &StateResult, value: f64| models.found(value, Some(&before.state.q), &[]);
     let nearest = outcomes.iter().filter_map(|(_, outcome)| outcome.as_ref().ok());
     let nearest = nearest.min_by(|a, b| (a.sample.at - own).abs().total_cmp(&(b.sample.at - own).abs()));
     let sensitivity = nearest.and_then(|nearest| models.sensitivity(own, Some(&nearest.state.q)));
@@ -217,10 +217,10 @@ fn at_rest_along<'v>(
 
 /// Returns states between two, as many as it takes to match the modes.
 fn refined(
-    before: &Found,
-    after: &Found,
+    before: &StateResult,
+    after: &StateResult,
     halvings: usize,
-    between: &impl Fn(&Found, f64) -> Result<Found>,
+    between: &impl Fn(&StateResult, f64) -> Result<StateResult>,
 ) -> Vec<LociPoint> {
     if halvings == 0 || before.sample.leads_clearly_to(&after.sample) {
         return Vec::new();
@@ -235,7 +235,11 @@ fn refined(
 }
 
 /// Returns branches and gaps of the outcomes; `between` gives the state that follows one, at another time or value.
-fn collect(along: LociVariable, outcomes: Vec<Outcome>, between: impl Fn(&Found, f64) -> Result<Found> + Sync) -> Loci {
+fn collect(
+    along: LociVariable,
+    outcomes: Vec<Outcome>,
+    between: impl Fn(&StateResult, f64) -> Result<StateResult> + Sync,
+) -> Loci {
     let places: Vec<f64> = outcomes.iter().map(|(at, _)| *at).collect();
     let behind = |pair: &[Outcome]| match (&pair[0].1, &pair[1].1) {
         (Ok(before), Ok(after)) => {

@@ -1,6 +1,6 @@
 //! Values of a parameter at which eigenvalues meet or cross the imaginary axis.
 
-use super::found::Found;
+use super::found::StateResult;
 use super::{Complex, Kind, Mode};
 use crate::error::Result;
 use crate::tolerances;
@@ -49,7 +49,11 @@ struct Signature {
 
 /// Returns the thresholds between two values of the parameter at which the numbers of real and of growing eigenvalues
 /// differ; `model` gives the eigenvalues at another value, near a known state.
-pub(super) fn between(low: &Found, high: &Found, model: &impl Fn(&Found, f64) -> Result<Found>) -> Vec<Threshold> {
+pub(super) fn between(
+    low: &StateResult,
+    high: &StateResult,
+    model: &impl Fn(&StateResult, f64) -> Result<StateResult>,
+) -> Vec<Threshold> {
     let mut found = Vec::new();
     let mut start = low.clone();
     // Each costs some 30 models.
@@ -62,7 +66,11 @@ pub(super) fn between(low: &Found, high: &Found, model: &impl Fn(&Found, f64) ->
 }
 
 /// Bisects up to a small part of the step: where a pair leaves the axis its real part is the root of the distance.
-fn bracket(low: &Found, high: &Found, model: &impl Fn(&Found, f64) -> Result<Found>) -> Option<(Found, Found)> {
+fn bracket(
+    low: &StateResult,
+    high: &StateResult,
+    model: &impl Fn(&StateResult, f64) -> Result<StateResult>,
+) -> Option<(StateResult, StateResult)> {
     let goal = BRACKET * (high.sample.at - low.sample.at).abs();
     let mut below = low.clone();
     let mut above = high.clone();
@@ -75,7 +83,11 @@ fn bracket(low: &Found, high: &Found, model: &impl Fn(&Found, f64) -> Result<Fou
 
 /// Finds the root of what vanishes at the threshold: the real part of an eigenvalue that crosses, or the square of the
 /// difference of two that meet, which is analytic there.
-fn locate(below: &Found, above: &Found, model: &impl Fn(&Found, f64) -> Result<Found>) -> Option<Threshold> {
+fn locate(
+    below: &StateResult,
+    above: &StateResult,
+    model: &impl Fn(&StateResult, f64) -> Result<StateResult>,
+) -> Option<Threshold> {
     let counts = [signature(below), signature(above)];
     let rank = counts[0].growing.min(counts[1].growing);
     let stable = if counts[0].growing <= counts[1].growing { below } else { above };
@@ -89,7 +101,7 @@ fn locate(below: &Found, above: &Found, model: &impl Fn(&Found, f64) -> Result<F
         let pairs = moving(complex).filter(|mode| mode.value.im > 0.0);
         pairs.min_by(|a, b| a.value.im.total_cmp(&b.value.im)).map(|mode| Complex::new(mode.value.re, 0.0))
     }?;
-    let value = |found: &Found| -> Option<(f64, Complex<f64>)> {
+    let value = |found: &StateResult| -> Option<(f64, Complex<f64>)> {
         if is_crossing {
             by_growth(found).into_iter().nth(rank).map(|mode| (mode.value.re, mode.value))
         } else {
@@ -106,7 +118,7 @@ fn locate(below: &Found, above: &Found, model: &impl Fn(&Found, f64) -> Result<F
 }
 
 /// Returns the number of growing modes. A mode is a pair or a real eigenvalue.
-fn growing_modes(found: &Found) -> usize {
+fn growing_modes(found: &StateResult) -> usize {
     let upper = moving(found).filter(|mode| mode.value.im >= 0.0);
     upper.filter(|mode| grows(mode)).count()
 }
@@ -114,10 +126,10 @@ fn growing_modes(found: &Found) -> usize {
 /// The root of a value between two states by the Illinois variant of the regula falsi (Dowell, Jarratt, BIT 11 (1971)
 /// 168-174), with the eigenvalue there.
 fn root(
-    below: &Found,
-    above: &Found,
-    value: impl Fn(&Found) -> Option<(f64, Complex<f64>)>,
-    model: &impl Fn(&Found, f64) -> Result<Found>,
+    below: &StateResult,
+    above: &StateResult,
+    value: impl Fn(&StateResult) -> Option<(f64, Complex<f64>)>,
+    model: &impl Fn(&StateResult, f64) -> Result<StateResult>,
 ) -> Option<(f64, Complex<f64>)> {
     let mut low = (below.sample.at, value(below)?.0);
     let mut high = (above.sample.at, value(above)?.0);
@@ -149,7 +161,7 @@ fn root(
 }
 
 /// The physical modes that are not zero.
-fn moving(found: &Found) -> impl Iterator<Item = &Mode> {
+fn moving(found: &StateResult) -> impl Iterator<Item = &Mode> {
     found.sample.modes.iter().filter(|mode| mode.kind == Kind::Physical && !mode.is_zero())
 }
 
@@ -161,20 +173,20 @@ fn grows(mode: &Mode) -> bool {
     mode.value.re > 0.0 && !is_on_axis(mode)
 }
 
-fn signature(found: &Found) -> Signature {
+fn signature(found: &StateResult) -> Signature {
     let real = moving(found).filter(|mode| mode.value.im == 0.0).count();
     Signature { real, growing: moving(found).filter(|mode| grows(mode)).count() }
 }
 
 /// The modes from the largest real part.
-fn by_growth(found: &Found) -> Vec<&Mode> {
+fn by_growth(found: &StateResult) -> Vec<&Mode> {
     let mut modes: Vec<&Mode> = moving(found).collect();
     modes.sort_by(|a, b| b.value.re.total_cmp(&a.value.re));
     modes
 }
 
 /// The two eigenvalues nearest to a value.
-fn nearest(found: &Found, center: Complex<f64>) -> Option<[Complex<f64>; 2]> {
+fn nearest(found: &StateResult, center: Complex<f64>) -> Option<[Complex<f64>; 2]> {
     let mut values: Vec<Complex<f64>> = moving(found).map(|mode| mode.value).collect();
     values.sort_by(|a, b| (a - center).norm().total_cmp(&(b - center).norm()));
     Some([*values.first()?, *values.get(1)?])

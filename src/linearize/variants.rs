@@ -1,6 +1,6 @@
 //! A scene at many values of a parameter, each linearized at a state of its own.
 
-use super::found::Found;
+use super::found::StateResult;
 use super::method::build;
 use super::slopes::Slope;
 use super::{Kind, Linear, LociPoint, Mode, Operating, State, at_rest, method, tighten};
@@ -76,7 +76,7 @@ impl Models<'_> {
     }
 
     /// Returns the eigenvalues at a value, with their derivatives by differences of the model over these steps.
-    pub fn found(&self, value: f64, guess: Option<&[f64]>, steps: &[f64]) -> Result<Found> {
+    pub fn found(&self, value: f64, guess: Option<&[f64]>, steps: &[f64]) -> Result<StateResult> {
         self.operate(value, guess, |operating| {
             let mut variation = operating.variation()?;
             let solved = method::solve(&mut variation, self.request)?;
@@ -85,7 +85,7 @@ impl Models<'_> {
                 self.operate(value + step, near, |beside| build(&mut beside.variation()?, self.request))
             });
             let model = solved.finish(&mut variation, self.request);
-            Ok(Found::new(operating, &variation, value, model).with_slopes(slopes))
+            Ok(StateResult::new(operating, &variation, value, model).with_slopes(slopes))
         })
     }
 

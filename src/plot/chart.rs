@@ -20,7 +20,7 @@ fn build<'a>(page: &Page, frame: &Rect, [x, y]: [&Axis; 2], room: [f64; 3]) -> D
 }
 
 /// Builds the chart of a panel, and draws thin lines at the labelled marks.
-pub(super) fn grid<'a>(page: &Page, placed: &Placed) -> Done<Chart<'a>> {
+pub(super) fn grid<'a>(page: &Page, placed: &PlacedPanel) -> Done<Chart<'a>> {
     let room = [placed.margins.0, placed.below() - 0.5, 0.0];
     let mut chart = build(page, &placed.frame, [&placed.x, &placed.y], room)?;
     chart.configure_mesh().disable_axes().bold_line_style(line(GRID)).draw()?;
@@ -43,8 +43,8 @@ fn marks<'a, 'b>(chart: &'b mut Chart<'a>, length: f64, size: f64) -> MeshStyle<
 }
 
 /// Draws the axes with the texts around them, and the colour bar as a chart of its own.
-pub(super) fn draw(page: &Page, chart: &mut Chart, placed: &Placed) -> Done {
-    let Placed { panel, x, y, bar, frame, margins: (_, right), .. } = placed;
+pub(super) fn draw(page: &Page, chart: &mut Chart, placed: &PlacedPanel) -> Done {
+    let PlacedPanel { panel, x, y, bar, frame, margins: (_, right), .. } = placed;
     axes(page, chart, [x, y], frame)?;
     let strip = frame.top - 11.0;
     let beside = frame.right + BAR_GAP;

@@ -30,7 +30,7 @@ impl Marker {
 }
 
 /// Draws lines and points of a panel, in a figure of `count` series: restless lines below calm ones, then markers.
-pub(super) fn series(page: &Page, placed: &Placed, count: usize) -> Done {
+pub(super) fn series(page: &Page, placed: &PlacedPanel, count: usize) -> Done {
     let runs = |series: &Series| runs(placed, series);
     let all: Vec<(&Look, Vec<Vec<Pt>>)> = placed.looks.iter().zip(placed.panel.series.iter().map(runs)).collect();
     let lines = all.iter().filter_map(|(look, runs)| Some(lines(placed, look.line?, runs, count)));
@@ -42,7 +42,7 @@ pub(super) fn series(page: &Page, placed: &Placed, count: usize) -> Done {
 }
 
 /// Returns the points in the picture, split where one of them is not a number.
-fn runs(placed: &Placed, series: &Series) -> Vec<Vec<Pt>> {
+fn runs(placed: &PlacedPanel, series: &Series) -> Vec<Vec<Pt>> {
     let place = |(x, y): &Pt| Some(placed.frame.at(placed.x.place(*x)?, placed.y.place(*y)?));
     let places: Vec<Option<Pt>> = series.points.iter().map(place).collect();
     places.split(Option::is_none).map(|run| run.iter().flatten().copied().collect()).collect()
@@ -50,7 +50,7 @@ fn runs(placed: &Placed, series: &Series) -> Vec<Vec<Pt>> {
 
 /// Returns the lines of a series with their stroke, and true if they are restless: these are thin, since at full width
 /// they would be one blot.
-fn lines(placed: &Placed, mut stroke: Stroke, runs: &[Vec<Pt>], count: usize) -> (bool, Stroke, Vec<Vec<Pt>>) {
+fn lines(placed: &PlacedPanel, mut stroke: Stroke, runs: &[Vec<Pt>], count: usize) -> (bool, Stroke, Vec<Vec<Pt>>) {
     let full = runs.iter().map(Vec::len).sum::<usize>().max(1);
     let most = |run: &[Pt]| ((16_000 / count).max(200) * run.len() / full).max(8);
     let thinned = runs.iter().map(|run| polyline::clipped(&polyline::thinned(run, most(run)), placed.frame.ends()));
@@ -67,7 +67,7 @@ fn turns(points: &[Pt]) -> usize {
     signs.windows(2).filter(|pair| pair[0] != pair[1]).count()
 }
 
-fn markers(page: &Page, placed: &Placed, look: &Look, runs: &[Vec<Pt>], count: usize) -> Done {
+fn markers(page: &Page, placed: &PlacedPanel, look: &Look, runs: &[Vec<Pt>], count: usize) -> Done {
     // A single point between two gaps has no line; a dot of the line's width would be missed.
     let marked = runs.iter().filter(|run| look.marker.is_some() || run.len() == 1);
     let points: Vec<Pt> = marked.flatten().copied().filter(|point| placed.frame.contains(*point)).collect();

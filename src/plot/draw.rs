@@ -43,7 +43,7 @@ fn sheet(figure: &Figure, drawing: &Rc<RefCell<Drawing>>) -> Done<(f64, f64)> {
 }
 
 /// Draws a panel, and returns what a legend must not hide.
-fn panel(drawing: &RefCell<Drawing>, page: &Page, placed: &Placed, count: usize) -> Done<Vec<Pt>> {
+fn panel(drawing: &RefCell<Drawing>, page: &Page, placed: &PlacedPanel, count: usize) -> Done<Vec<Pt>> {
     let seal = || drawing.borrow_mut().seal();
     let mut chart = chart::grid(page, placed)?;
     let first = seal();

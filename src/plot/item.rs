@@ -23,7 +23,7 @@ impl Spot {
     }
 
     /// Returns its position in the picture; none if it is not a number.
-    pub(super) fn put(&self, placed: &Placed) -> Option<Pt> {
+    pub(super) fn put(&self, placed: &PlacedPanel) -> Option<Pt> {
         let place = |axis: &Axis, value: f64| match value {
             f64::INFINITY => Some(1.0),
             f64::NEG_INFINITY => Some(0.0),
@@ -91,7 +91,7 @@ impl Item {
 }
 
 /// Draws the items of a panel; not those with a point that is not a number.
-pub(super) fn draw(page: &Page, placed: &Placed) -> Done {
+pub(super) fn draw(page: &Page, placed: &PlacedPanel) -> Done {
     placed.panel.items.iter().try_for_each(|item| {
         let points: Option<Vec<Pt>> = item.spots.iter().map(|spot| spot.put(placed)).collect();
         let draw = |points: Vec<Pt>| item.draw(page, placed.color(item.tint), &points, &placed.frame.grown(24.0));

@@ -7,7 +7,7 @@ use super::*;
 const STRIP: f64 = 22.0;
 
 /// A panel with its axes, and the room that it needs.
-pub(super) struct Placed<'a> {
+pub(super) struct PlacedPanel<'a> {
     pub panel: &'a Panel,
     pub x: Axis,
     pub y: Axis,
@@ -22,7 +22,7 @@ pub(super) struct Placed<'a> {
     pub shows_x: bool,
 }
 
-impl<'a> Placed<'a> {
+impl<'a> PlacedPanel<'a> {
     /// The panel, whose x axis is that of a group.
     fn new(panel: &'a Panel, group: &[Panel], shows_x: bool) -> Self {
         // A panel with markers needs room at the ends, and then all have it.
@@ -116,7 +116,7 @@ impl<'a> Placed<'a> {
 }
 
 /// Returns the width of the figure and its panels, whose frames have the same left and right margins.
-pub(super) fn place(figure: &Figure) -> (f64, Vec<Placed<'_>>) {
+pub(super) fn place(figure: &Figure) -> (f64, Vec<PlacedPanel<'_>>) {
     let whole = if figure.width.is_finite() { figure.width.clamp(240.0, 4000.0).round() } else { 240.0 };
     let total = whole / columns(figure) as f64;
     let mut all = panels(figure);
@@ -126,7 +126,7 @@ pub(super) fn place(figure: &Figure) -> (f64, Vec<Placed<'_>>) {
     for _ in 0..3 {
         let width = (total - left - right).max(60.0);
         all.iter_mut().for_each(|placed| placed.fit(width, frame_height(placed.panel, figure.panels.len(), width)));
-        let largest = |part: fn(&Placed) -> f64| all.iter().map(part).fold(0.0, f64::max);
+        let largest = |part: fn(&PlacedPanel) -> f64| all.iter().map(part).fold(0.0, f64::max);
         let distance = 6.0 + largest(|placed| placed.y.ticks.widest()) + LABEL_DISTANCE;
         left = (EDGE + largest(|placed| placed.y.label.height()) + distance).max(40.0).min(0.45 * total).ceil();
         right = largest(|placed| placed.right()).min(0.4 * total).ceil();
@@ -143,13 +143,13 @@ pub(super) fn columns(figure: &Figure) -> usize {
 }
 
 /// Returns the panels with their axes. Panels one above another with the same x axis share its limits.
-fn panels(figure: &Figure) -> Vec<Placed<'_>> {
+fn panels(figure: &Figure) -> Vec<PlacedPanel<'_>> {
     let panels = &figure.panels[..];
     let is_like_first = |panel: &Panel| panel.x == panels[0].x && !panel.equal_aspect;
     let is_shared = columns(figure) == 1 && panels.iter().all(is_like_first);
     let place = |index: usize| {
         let group = if is_shared { panels } else { &panels[index..=index] };
-        Placed::new(&panels[index], group, !is_shared || index + 1 == panels.len())
+        PlacedPanel::new(&panels[index], group, !is_shared || index + 1 == panels.len())
     };
     (0..panels.len()).map(place).collect()
 }

@@ -14,7 +14,7 @@ const SIDES: [(f64, f64); 8] =
 
 pub(super) type LegendEntry = (String, Look);
 
-pub(super) fn entries(placed: &Placed) -> Vec<LegendEntry> {
+pub(super) fn entries(placed: &PlacedPanel) -> Vec<LegendEntry> {
     let series = placed.panel.series.iter().zip(&placed.looks).map(|(series, look)| (series.label.clone(), *look));
     let key = |color| Look { line: None, marker: Some(SQUARE), color: placed.color(color) };
     let keys = placed.panel.keys.iter().map(|(label, color)| (label.clone(), key(*color)));
@@ -64,7 +64,7 @@ impl Block {
 }
 
 /// Draws a legend inside the frame where it hides nothing, in a box; false if there is no space.
-pub(super) fn inside(page: &Page, entries: &[LegendEntry], placed: &Placed, taken: &[Pt]) -> Done<bool> {
+pub(super) fn inside(page: &Page, entries: &[LegendEntry], placed: &PlacedPanel, taken: &[Pt]) -> Done<bool> {
     let room = placed.frame.grown(-8.0);
     let frame = placed.frame.size();
     let place = |columns: usize| {
@@ -86,7 +86,7 @@ pub(super) fn inside(page: &Page, entries: &[LegendEntry], placed: &Placed, take
 }
 
 /// Draws a legend below a panel in as many columns as fit into the figure, and returns its lower end.
-pub(super) fn below(page: &Page, entries: &[LegendEntry], placed: &Placed, top: f64, width: f64) -> Done<f64> {
+pub(super) fn below(page: &Page, entries: &[LegendEntry], placed: &PlacedPanel, top: f64, width: f64) -> Done<f64> {
     let room = width - 2.0 * EDGE;
     let block = |columns| Some(Block::new(entries, columns, room)).filter(|block| columns == 1 || block.size.0 <= room);
     let Some(block) = (1..=entries.len().min(6)).rev().find_map(block) else { return Ok(top) };

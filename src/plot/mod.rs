@@ -33,7 +33,7 @@ pub use shape::Align;
 
 use axis::Axis;
 use data::Marker;
-use layout::Placed;
+use layout::PlacedPanel;
 use palette::*;
 use plotters::element::{Circle, Cross, Polygon, Rectangle};
 use plotters::style::Color as _;

@@ -7,7 +7,7 @@ const AROUND: [(f64, f64); 8] =
     [(1.0, 0.0), (-1.0, 0.0), (0.0, -1.0), (0.0, 1.0), (0.8, -0.8), (-0.8, -0.8), (0.8, 0.8), (-0.8, 0.8)];
 
 /// Draws the notes of a panel, each at the place where it hides least, inside of the frame if possible.
-pub(super) fn draw(page: &Page, placed: &Placed, taken: &mut Vec<Pt>) -> Done {
+pub(super) fn draw(page: &Page, placed: &PlacedPanel, taken: &mut Vec<Pt>) -> Done {
     for item in &placed.panel.items {
         let (Form::Note(text), [spot]) = (&item.form, &item.spots[..]) else { continue };
         let Some((x, y)) = spot.put(placed).filter(|at| placed.frame.contains(*at)) else { continue };

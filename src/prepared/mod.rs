@@ -18,7 +18,7 @@ pub use settings::Overrides;
 use doubts::{doubts, explained, of_scene, pulling};
 use far::refuse_rounding;
 use rest::at_rest;
-use settings::Settings;
+use settings::SceneSettings;
 
 use crate::error::{Error, Result, Warning};
 use crate::initial::{self, Assembly};
@@ -126,7 +126,7 @@ impl Model {
     /// Bad input of any kind: see `initial::assemble`, [`Method::check`].
     pub fn new(scene: Scene, overrides: &Overrides) -> Result<Model> {
         let settings =
-            Settings { parameters: &scene.parameters, scene: &scene.simulation, own: &scene.methods, overrides };
+            SceneSettings { parameters: &scene.parameters, scene: &scene.simulation, own: &scene.methods, overrides };
         let is_automatic = settings.is_automatic().map_err(|error| settings.place(error))?;
         let start = scene.start_time()?;
         let span = settings.span(start).map_err(|error| settings.place(error))?;

@@ -38,7 +38,7 @@ pub struct Overrides {
 }
 
 /// Settings of the scene, and the overrides that replace them.
-pub struct Settings<'a> {
+pub struct SceneSettings<'a> {
     pub parameters: &'a Parameters,
     pub scene: &'a Simulation,
     /// Own methods that may be named.
@@ -49,7 +49,7 @@ pub struct Settings<'a> {
 /// A larger number of rows is taken for a mistake.
 const MOST_ROWS: f64 = 1e7;
 
-impl Settings<'_> {
+impl SceneSettings<'_> {
     /// The error with the path of the option or key that gave the setting.
     pub fn place(&self, error: Error) -> Error {
         let Error::Input(mut input) = error else { return error };

@@ -1,6 +1,6 @@
 //! The folder of the results.
 
-use super::origin::{Origin, Sealed, Settings};
+use super::origin::{Origin, ResultSettings, Sealed};
 use crate::error::{Error, Result};
 use crate::files::{self, Staging};
 use crate::plot::Figure;
@@ -126,9 +126,9 @@ impl Folder {
         file.append(b"\n");
         file.finish()?;
         self.sealed = self.staging.names().len();
-        let written = Settings::read(&self.staging.path(name));
+        let written = ResultSettings::read(&self.staging.path(name));
         // Of other results nobody knows by which command they came.
-        let earlier = Settings::read(&self.path().join(name)).filter(|earlier| !earlier.command.is_empty());
+        let earlier = ResultSettings::read(&self.path().join(name)).filter(|earlier| !earlier.command.is_empty());
         if let Some((earlier, new)) = earlier.zip(written) {
             self.notes.extend(earlier.replaced_by(&new));
             self.obsolete.extend(earlier.files.into_iter().filter(|file| belongs(name, file)));

@@ -44,7 +44,7 @@ impl Saved {
     }
 }
 
-type Rows = (Vec<String>, Vec<Vec<f64>>);
+type TrajectoryRows = (Vec<String>, Vec<Vec<f64>>);
 
 impl FinishedRun {
     /// Reads the run of a folder, or of its `summary.json`; of a long one those rows that curves need, if `is_thinned`.
@@ -127,7 +127,7 @@ impl FinishedRun {
 }
 
 /// Reads a table row by row; an empty cell is no value.
-fn read_table(path: &Path, is_thinned: bool) -> Result<Rows> {
+fn read_table(path: &Path, is_thinned: bool) -> Result<TrajectoryRows> {
     let wrong = |error: &dyn std::fmt::Display| Error::input(format!("this is no trajectory: {error}"));
     let file = files::open(path).and_then(|file| {
         let fits = if is_thinned { Ok(()) } else { files::refuse_large(&file) };
@@ -153,7 +153,7 @@ fn read_table(path: &Path, is_thinned: bool) -> Result<Rows> {
 }
 
 #[cfg(feature = "npz")]
-fn read_arrays(path: &Path) -> Result<Rows> {
+fn read_arrays(path: &Path) -> Result<TrajectoryRows> {
     use files::{npy::Npy, npz};
     let mut archive = npz::open(path)?;
     let mut member =
@@ -171,6 +171,6 @@ fn read_arrays(path: &Path) -> Result<Rows> {
 }
 
 #[cfg(not(feature = "npz"))]
-fn read_arrays(_: &Path) -> Result<Rows> {
+fn read_arrays(_: &Path) -> Result<TrajectoryRows> {
     Err(Error::input("files of NumPy are not read without the feature `npz`"))
 }

@@ -45,7 +45,7 @@ pub struct Sealed<T> {
 /// The settings of a result as its file has them.
 #[derive(Deserialize, Default)]
 #[serde(default)]
-pub(super) struct Settings {
+pub(super) struct ResultSettings {
     pub command: Vec<String>,
     parameters: Map<String, Value>,
     simulation: Option<Value>,
@@ -61,16 +61,16 @@ const METHOD: [&str; 6] = ["formulation", "integrator", "projection", "rtol", "a
 /// Largest number of settings that are named.
 const NAMED: usize = 4;
 
-impl Settings {
+impl ResultSettings {
     /// Reads those of a result. The file is large where there are many coordinates, and little of it is kept.
-    pub fn read(path: &Path) -> Option<Settings> {
+    pub fn read(path: &Path) -> Option<ResultSettings> {
         // A pipe would wait for a writer.
         let file = std::fs::metadata(path).ok().filter(Metadata::is_file).and_then(|_| File::open(path).ok())?;
         serde_json::from_reader(BufReader::new(file)).ok()
     }
 
     /// Returns what became of earlier results with other settings; `None` if these are the same.
-    pub fn replaced_by(&self, new: &Settings) -> Option<String> {
+    pub fn replaced_by(&self, new: &ResultSettings) -> Option<String> {
         let changes = self.changes(new);
         let goes_on = new.command.iter().any(|word| word == "--resume");
         let is_same = changes.is_empty() && (goes_on || self.telling() == new.telling());
@@ -98,7 +98,7 @@ impl Settings {
     }
 
     /// Returns the settings that differ, with their earlier values.
-    fn changes(&self, new: &Settings) -> Vec<String> {
+    fn changes(&self, new: &ResultSettings) -> Vec<String> {
         let old = self.values();
         let new = new.values();
         let differs =

@@ -1,13 +1,13 @@
 //! The least model that keeps a promise: text, table and figure.
 
 use super::table::count;
-use super::tables::{Column, by_columns, optional};
+use super::tables::{TableColumn, by_columns, optional};
 use super::tradeoff::milliseconds;
 use super::{Answer, Folder, Table, cell};
 use crate::error::{Error, Result, percent, short_list};
 use crate::math::bounds;
 use crate::plot::{AxisSpec, Figure, Panel, Series, Style, Tint};
-use crate::simplify::{Norm, Robustness, Run, Simplification, Trial, Which};
+use crate::simplify::{ModelRun, Norm, Robustness, Simplification, Trial, Which};
 use crate::study::work_precision::front;
 use serde::Serialize;
 
@@ -74,7 +74,7 @@ fn outcome(result: &Simplification) -> String {
         None => format!("  by {}, rtol {:e}\n", chosen.method.triple(), chosen.method.rtol),
     };
     let size =
-        |run: &Run| format!("{} and {}", count(run.velocities, "velocity"), count(run.constraints, "constraint"));
+        |run: &ModelRun| format!("{} and {}", count(run.velocities, "velocity"), count(run.constraints, "constraint"));
     let farthest =
         chosen.worst().map_or(String::new(), |worst| format!("{} is off by {}", worst.name, percent(worst.error)));
     let confirmed = result.second_opinion.iter().map(|opinion| format!("  the full model is {opinion}\n"));
@@ -130,11 +130,11 @@ fn near(robustness: &Robustness, within: f64) -> String {
 }
 
 /// A row for each change: estimate, measurement, cost and result.
-const COLUMNS: [Column<Trial>; 11] = [
+const COLUMNS: [TableColumn<Trial>; 11] = [
     ("candidate", |trial| trial.candidate.clone()),
     ("change", |trial| trial.what.join("; ")),
     ("estimated", |trial| cell(trial.estimated)),
-    ("measured", |trial| optional(trial.run.as_ref().and_then(Run::worst).map(|worst| worst.error))),
+    ("measured", |trial| optional(trial.run.as_ref().and_then(ModelRun::worst).map(|worst| worst.error))),
     ("worst", |trial| of_run(trial, |run| run.worst().map_or(String::new(), |worst| worst.name.clone()))),
     ("cpu_seconds", |trial| of_run(trial, |run| cell(run.seconds))),
     ("velocities", |trial| of_run(trial, |run| run.velocities.to_string())),
@@ -144,7 +144,7 @@ const COLUMNS: [Column<Trial>; 11] = [
     ("reason", |trial| trial.reason.clone()),
 ];
 
-fn of_run(trial: &Trial, value: fn(&Run) -> String) -> String {
+fn of_run(trial: &Trial, value: fn(&ModelRun) -> String) -> String {
     trial.run.as_ref().map_or(String::new(), value)
 }
 
@@ -160,11 +160,11 @@ const ALIKE: f64 = 10.0;
 /// front of all, and the promise; the richest and the chosen one are named. The axis has the errors of models that were
 /// tried, and the richest one, whose error is its method's, at its end.
 pub fn simplify_figure(result: &Simplification) -> Option<Figure> {
-    let exact = |run: &Run| run.worst().map(|worst| (run.seconds, worst.error)).filter(|(_, error)| *error > 0.0);
+    let exact = |run: &ModelRun| run.worst().map(|worst| (run.seconds, worst.error)).filter(|(_, error)| *error > 0.0);
     let tried: Vec<(f64, f64)> = result.trials.iter().filter_map(|trial| trial.run.as_ref().and_then(exact)).collect();
     // Smaller errors are drawn at the least of the models that were tried, unless that is negligible.
     let least = tried.iter().map(|point| point.1).fold(result.within, f64::min).max(result.within / NEGLIGIBLE);
-    let point = |run: &Run| exact(run).map(|(seconds, error)| (seconds, error.max(least)));
+    let point = |run: &ModelRun| exact(run).map(|(seconds, error)| (seconds, error.max(least)));
     let of = |is_kept: bool| -> Vec<(f64, f64)> {
         let trials = result.trials.iter().filter(|trial| trial.is_kept == is_kept);
         trials.filter_map(|trial| trial.run.as_ref().and_then(point)).collect()

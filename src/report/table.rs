@@ -75,7 +75,7 @@ impl Table {
     }
 
     /// A row for each item.
-    pub fn of<T>(columns: &[tables::Column<T>], items: &[T]) -> Self {
+    pub fn of<T>(columns: &[tables::TableColumn<T>], items: &[T]) -> Self {
         let mut table = Table::new(&columns.iter().map(|column| column.0).collect::<Vec<_>>());
         items.iter().for_each(|item| table.row(columns.iter().map(|(_, cell)| cell(item))));
         table

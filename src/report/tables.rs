@@ -108,9 +108,9 @@ pub fn table(headings: impl Iterator<Item = String>, rows: impl Iterator<Item = 
 }
 
 /// A column: its heading, and the cell of an item.
-pub type Column<T> = (&'static str, fn(&T) -> String);
+pub type TableColumn<T> = (&'static str, fn(&T) -> String);
 
-pub fn by_columns<T>(columns: &[Column<T>], items: impl Iterator<Item = impl Borrow<T>>) -> Result<Vec<u8>> {
+pub fn by_columns<T>(columns: &[TableColumn<T>], items: impl Iterator<Item = impl Borrow<T>>) -> Result<Vec<u8>> {
     let row = |item| columns.iter().map(|(_, cell)| cell(Borrow::borrow(&item))).collect();
     table(columns.iter().map(|(heading, _)| heading.to_string()), items.map(row))
 }

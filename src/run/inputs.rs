@@ -12,9 +12,9 @@ use std::sync::{Arc, Mutex, PoisonError};
 /// An input u of a run. A closure `|t: f64, x: &Moment| ..` is one that is evaluated with the equations, at every stage
 /// of a step: it has to be a function of its arguments alone. [`every`] makes one that is sampled, as by a digital
 /// controller.
-pub struct Input<'a>(Kind<'a>);
+pub struct Input<'a>(InputFunction<'a>);
 
-enum Kind<'a> {
+enum InputFunction<'a> {
     Continuous(Continuous),
     Sampled { period: f64, law: Sampled<'a> },
 }
@@ -25,12 +25,12 @@ type Sampled<'a> = Box<dyn FnMut(&Moment) -> f64 + Send + 'a>;
 /// An input that is sampled with this period, s, from the start on, and held between the samples. Steps end on samples,
 /// and the closure is called once at each: it may have a memory, such as that of an integral.
 pub fn every<'a>(period: f64, law: impl FnMut(&Moment) -> f64 + Send + 'a) -> Input<'a> {
-    Input(Kind::Sampled { period, law: Box::new(law) })
+    Input(InputFunction::Sampled { period, law: Box::new(law) })
 }
 
 impl<F: Fn(f64, &Moment) -> f64 + Send + Sync + 'static> From<F> for Input<'_> {
     fn from(law: F) -> Self {
-        Input(Kind::Continuous(Box::new(law)))
+        Input(InputFunction::Continuous(Box::new(law)))
     }
 }
 
@@ -73,12 +73,12 @@ impl<'a> Inputs<'a> {
                 .hint("give it a \"value\" in the scene, or drive by a force"));
             }
             match kind {
-                Kind::Continuous(law) => laws.push((place, law)),
-                Kind::Sampled { period, .. } if !(period > 0.0 && period.is_finite()) => {
+                InputFunction::Continuous(law) => laws.push((place, law)),
+                InputFunction::Sampled { period, .. } if !(period > 0.0 && period.is_finite()) => {
                     return Err(Error::input(format!("the input `{name}` is sampled every {} s", short(period)))
                         .hint("give a period above zero"));
                 }
-                Kind::Sampled { period, law } => samplers.push(Sampler { place, period, law, next: 0 }),
+                InputFunction::Sampled { period, law } => samplers.push(Sampler { place, period, law, next: 0 }),
             }
         }
         let law = (!laws.is_empty()).then(|| continuous(laws, moment.clone()));

@@ -4,10 +4,10 @@ use super::assembled::carried;
 use super::edit::{elements, text};
 use super::promise::Promise;
 use super::recorded::{Recorded, record};
-use super::run::{Run, measured};
+use super::run::{ModelRun, measured};
 use super::search::{NUMERICAL, Trial};
 use super::source::{Source, write_method};
-use super::{LEAST, Settings};
+use super::{LEAST, SimplificationSettings};
 use crate::analysis::Passing;
 use crate::error::{Error, Failure, Result, Warning, clock, percent, rounded, short_list, significant};
 use crate::integrator;
@@ -50,7 +50,7 @@ pub struct Accurate {
 pub struct Base {
     pub accurate: Accurate,
     /// Run by the method of the scene, or a tighter one whose own error the promise allows.
-    pub richest: Run,
+    pub richest: ModelRun,
     /// That tighter one, if it took one.
     pub trials: Vec<Trial>,
     pub runs: usize,
@@ -60,7 +60,11 @@ pub struct Base {
 
 impl Accurate {
     /// Runs the model at a hundredth of its tolerance until `is_long`.
-    fn new(source: &Source, settings: &Settings, is_long: &(dyn Fn() -> bool + Sync)) -> Result<Accurate> {
+    fn new(
+        source: &Source,
+        settings: &SimplificationSettings,
+        is_long: &(dyn Fn() -> bool + Sync),
+    ) -> Result<Accurate> {
         let mut prepared = source.prepare(&source.scene)?;
         let source = &carried(source, &prepared);
         let watched = watched(&prepared, settings)?;
@@ -77,7 +81,7 @@ impl Accurate {
                 .under("outputs")
                 .hint("name the others by --outputs"));
         }
-        let Settings { within, norm, .. } = *settings;
+        let SimplificationSettings { within, norm, .. } = *settings;
         let promise = Promise::new(within, norm, &watched.columns, recorded.rows.clone(), &recorded.sizes);
         let is_shorter = shorter.is_some();
         Ok(Accurate { source: shorter.unwrap_or_else(|| source.clone()), prepared, recorded, promise, is_shorter })
@@ -91,7 +95,11 @@ impl Accurate {
     }
 
     /// Compares the accurate run with one of diffsol, for which a part of the budget is allowed.
-    pub fn confirmed(&self, settings: &Settings, is_stopped: &(dyn Fn() -> bool + Sync)) -> Option<SecondOpinion> {
+    pub fn confirmed(
+        &self,
+        settings: &SimplificationSettings,
+        is_stopped: &(dyn Fn() -> bool + Sync),
+    ) -> Option<SecondOpinion> {
         let span = self.prepared.span().ok()?;
         let watched = Watched::new(self.prepared.system(), &settings.outputs).ok()?;
         let motion = Motion { counts_start: true, ..Motion::of(&self.prepared, span, watched, is_stopped) };
@@ -100,7 +108,7 @@ impl Accurate {
     }
 
     /// Runs the model by its own method.
-    fn measured(&self, is_stopped: &(dyn Fn() -> bool + Sync)) -> Result<Run> {
+    fn measured(&self, is_stopped: &(dyn Fn() -> bool + Sync)) -> Result<ModelRun> {
         let run = measured(&self.prepared, &self.promise, ALLOWED, is_stopped)?;
         run.failure.clone().map_or(Ok(run), |failure| Err(failure.into()))
     }
@@ -114,7 +122,7 @@ impl Base {
     /// Unknown outputs, a scene without outputs, settings out of range; a richest model that does not complete.
     pub fn new(
         source: &Source,
-        settings: &Settings,
+        settings: &SimplificationSettings,
         is_long: &(dyn Fn() -> bool + Sync),
         is_stopped: &(dyn Fn() -> bool + Sync),
         watch: &mut dyn FnMut(&str, usize),
@@ -158,7 +166,7 @@ impl Base {
     fn tightened(
         &self,
         method: &Method,
-        settings: &Settings,
+        settings: &SimplificationSettings,
         is_long: &(dyn Fn() -> bool + Sync),
         is_stopped: &(dyn Fn() -> bool + Sync),
     ) -> Result<Base> {
@@ -199,7 +207,7 @@ pub fn contradicted(opinion: &SecondOpinion, within: f64) -> Option<Warning> {
 }
 
 /// What is doubtful about the full model.
-pub fn doubts(accurate: &Accurate, richest: &Run) -> Vec<Warning> {
+pub fn doubts(accurate: &Accurate, richest: &ModelRun) -> Vec<Warning> {
     let own = richest.error();
     let worst = richest.worst().map_or("", |worst| &worst.name);
     let coarse = (own > NUMERICAL * accurate.promise.within).then(|| {
@@ -262,7 +270,7 @@ fn shorter(source: &Source, recorded: &Recorded, stopped: &Failure) -> Result<So
     Ok(source)
 }
 
-fn watched(prepared: &Model, settings: &Settings) -> Result<Watched> {
+fn watched(prepared: &Model, settings: &SimplificationSettings) -> Result<Watched> {
     if !(settings.within > 0.0 && settings.within < 1.0) {
         return Err(Error::input("a promise is above 0 % and below 100 %").under("--within").hint("write --within 5%"));
     }

@@ -3,7 +3,7 @@
 use super::edit::{elements, text};
 use super::nearby::{Neighbourhood, Robustness};
 use super::promise::Promise;
-use super::run::{Difference, Run, measured};
+use super::run::{Difference, ModelRun, measured};
 use super::source::Source;
 use crate::error::{Error, percent};
 use crate::prepared::AnyMechanism;
@@ -26,13 +26,13 @@ pub struct Bench<'a> {
     /// Their counted work, in that of one of the full model.
     pub cost: f64,
     /// A run of the full model.
-    pub richest: &'a Run,
+    pub richest: &'a ModelRun,
     /// Runs allowed, and work.
     pub at_most: usize,
     /// Motions on which a model has to keep the promise, too.
     pub neighbourhood: Option<&'a Neighbourhood<'a>>,
     /// CPU times of a unit of the work that was run.
-    pub prices: Prices<Kind>,
+    pub prices: Prices<WorkKind>,
 }
 
 /// Part of the allowed work that may be counted. The rest is for what is not: estimates, and scenes that are built in
@@ -42,9 +42,9 @@ const COUNTED: f64 = 0.9;
 const TICKS: Duration = Duration::from_millis(if cfg!(windows) { 50 } else { 0 });
 
 /// Runs with the same kind of work on models of the same size, whose time per unit is the same.
-type Kind = (Class, [usize; 2]);
+type WorkKind = (Class, [usize; 2]);
 
-fn kind(run: &Run) -> Kind {
+fn kind(run: &ModelRun) -> WorkKind {
     (run.class.clone(), [run.velocities, run.constraints])
 }
 
@@ -61,7 +61,7 @@ impl Bench<'_> {
     ///
     /// # Errors
     /// Reason why the scene cannot be run.
-    pub fn run(&mut self, scene: &Value, what: &str, seconds: f64) -> std::result::Result<Run, String> {
+    pub fn run(&mut self, scene: &Value, what: &str, seconds: f64) -> std::result::Result<ModelRun, String> {
         let prepared = self.source.prepare(scene).map_err(impossible)?;
         (self.watch)(what, self.runs);
         self.runs += 1;
@@ -75,13 +75,13 @@ impl Bench<'_> {
     }
 
     /// Enters the price of a run.
-    pub fn enter(&mut self, run: &Run) {
+    pub fn enter(&mut self, run: &ModelRun) {
         self.prices.enter(kind(run), run.seconds, run.work);
     }
 
     /// CPU time of a run, s: its counted work at the median price of its kind, so that the clock of a busy machine does
     /// not decide between two.
-    pub fn cost(&self, run: &Run) -> f64 {
+    pub fn cost(&self, run: &ModelRun) -> f64 {
         self.prices.cost(&kind(run), run.work).unwrap_or(run.seconds)
     }
 

@@ -1,6 +1,6 @@
 //! Places of bodies that start elsewhere.
 
-use super::facts::{Facts, Placed};
+use super::facts::{Facts, PlacedMarker};
 use crate::body::{dot, norm, sub};
 use crate::math::array::{Each, from_fn};
 use crate::math::rotation::{axes_from_quaternion, quaternion_from_axes, quaternion_from_vector, quaternion_product};
@@ -28,7 +28,7 @@ pub fn progress(facts: &Facts) -> Vec<f64> {
 }
 
 /// Writes the start of a body. One in space with freedoms of its own keeps the rotation from which they count.
-pub fn start_at(body: &mut Value, place: &Placed, dimension: usize) {
+pub fn start_at(body: &mut Value, place: &PlacedMarker, dimension: usize) {
     if !is_rigid(body) {
         return;
     }
@@ -50,9 +50,9 @@ pub fn start_at(body: &mut Value, place: &Placed, dimension: usize) {
 }
 
 /// A place moved by a part of the displacement from `first` to `now`.
-pub fn further(place: &Placed, first: &Placed, now: &Placed, part: f64) -> Placed {
+pub fn further(place: &PlacedMarker, first: &PlacedMarker, now: &PlacedMarker, part: f64) -> PlacedMarker {
     let turned = quaternion_from_vector(&rotation(first, now).each(|x| part * x));
-    Placed {
+    PlacedMarker {
         r: from_fn(|i| place.r[i] + part * (now.r[i] - first.r[i])),
         axes: axes_from_quaternion(&quaternion_product(&turned, &quaternion_from_axes(&place.axes))),
         turn: place.turn + part * wrapped(now.turn - first.turn),
@@ -61,7 +61,7 @@ pub fn further(place: &Placed, first: &Placed, now: &Placed, part: f64) -> Place
 }
 
 /// Rotation vector from one place to another, in the world.
-fn rotation(first: &Placed, now: &Placed) -> [f64; 3] {
+fn rotation(first: &PlacedMarker, now: &PlacedMarker) -> [f64; 3] {
     // R[i][j] = sum of now_k[i] first_k[j] over the axes k.
     let matrix: [[f64; 3]; 3] = from_fn(|i| from_fn(|j| (0..3).map(|k| now.axes[k][i] * first.axes[k][j]).sum()));
     let (w, x) = quaternion(&matrix);
@@ -71,13 +71,13 @@ fn rotation(first: &Placed, now: &Placed) -> [f64; 3] {
 }
 
 /// Angle of the second of two markers against the first, about its z axis.
-pub fn angle(markers: &[Placed; 2]) -> f64 {
+pub fn angle(markers: &[PlacedMarker; 2]) -> f64 {
     let [one, other] = markers;
     dot(&one.axes[1], &other.axes[0]).atan2(dot(&one.axes[0], &other.axes[0]))
 }
 
 /// Displacement of the second of two markers along an axis of the first.
-pub fn slide(markers: &[Placed; 2], axis: usize) -> f64 {
+pub fn slide(markers: &[PlacedMarker; 2], axis: usize) -> f64 {
     let [one, other] = markers;
     dot(&one.axes[axis], &sub(&other.r, &one.r))
 }

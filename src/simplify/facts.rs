@@ -28,7 +28,7 @@ pub struct Facts {
     pub watched: Vec<String>,
     states: Vec<State>,
     /// Placements of all markers, a row for each state.
-    placed: Vec<Vec<Placed>>,
+    placed: Vec<Vec<PlacedMarker>>,
     /// Kinetic energy of each body of the model at each state, J.
     kinetic: Vec<Vec<f64>>,
     /// Rows of G that were found redundant.
@@ -39,7 +39,7 @@ pub struct Facts {
 
 /// Position and axes of a marker in the world.
 #[derive(Clone, Copy, Debug)]
-pub struct Placed {
+pub struct PlacedMarker {
     /// Origin, m.
     pub r: [f64; 3],
     /// Unit axes.
@@ -52,7 +52,7 @@ pub struct Placed {
     pub spin: [f64; 3],
 }
 
-impl Placed {
+impl PlacedMarker {
     /// A marker of a scene at this place.
     pub fn marker(&self, dimension: usize) -> Value {
         match dimension {
@@ -116,13 +116,13 @@ impl Facts {
     }
 
     /// Placements of a marker along the motion.
-    pub fn path(&self, marker: &str) -> Option<Vec<Placed>> {
+    pub fn path(&self, marker: &str) -> Option<Vec<PlacedMarker>> {
         let marker = self.marker(marker)?;
         Some(self.placed.iter().map(|row| row[marker]).collect())
     }
 
     /// Placement of a marker at the start.
-    pub fn place(&self, marker: &str) -> Option<Placed> {
+    pub fn place(&self, marker: &str) -> Option<PlacedMarker> {
         Some(self.placed.first()?[self.marker(marker)?])
     }
 
@@ -238,14 +238,14 @@ impl Facts {
 }
 
 /// `initial` of a rigid body or point mass at a state with these places of markers; none of another.
-pub fn initial(prepared: &Model, state: &State, places: &[Placed], body: &Value) -> Option<Value> {
+pub fn initial(prepared: &Model, state: &State, places: &[PlacedMarker], body: &Value) -> Option<Value> {
     let name = text(body, "name");
     let kind = text(body, "type");
     if !is_rigid(body) {
         return None;
     }
     let dimension = prepared.mechanism.dimension();
-    let Placed { r, axes, turn, velocity, spin } = *places.get(marker(prepared, name)?)?;
+    let PlacedMarker { r, axes, turn, velocity, spin } = *places.get(marker(prepared, name)?)?;
     let mut start = Map::new();
     start.insert("position".to_string(), json!(r[..dimension]));
     start.insert("velocity".to_string(), json!(velocity[..dimension]));
@@ -274,7 +274,7 @@ pub(super) fn marker(prepared: &Model, name: &str) -> Option<usize> {
 }
 
 /// Placements of all markers at a state.
-pub(super) fn placed(prepared: &Model, state: &State) -> Vec<Placed> {
+pub(super) fn placed(prepared: &Model, state: &State) -> Vec<PlacedMarker> {
     let mut scratch = Scratch::default();
     match &prepared.mechanism {
         AnyMechanism::Planar(mechanism) => places(mechanism, state, &mut scratch),
@@ -282,7 +282,7 @@ pub(super) fn placed(prepared: &Model, state: &State) -> Vec<Placed> {
     }
 }
 
-fn places<const D: usize>(mechanism: &Mechanism<D>, state: &State, scratch: &mut Scratch) -> Vec<Placed> {
+fn places<const D: usize>(mechanism: &Mechanism<D>, state: &State, scratch: &mut Scratch) -> Vec<PlacedMarker> {
     let frames = mechanism.frames(&state.q, &state.v, scratch);
     let axis = |axes: &[[f64; D]; D], i: usize| if i < D { in_space(&axes[i]) } else { [0.0, 0.0, 1.0] };
     let place = |moving: &Frame<Taylor<f64>, D>| {
@@ -290,12 +290,12 @@ fn places<const D: usize>(mechanism: &Mechanism<D>, state: &State, scratch: &mut
         let velocity = in_space(&moving.velocity());
         let spin = moving.angular_velocity();
         let axes = from_fn(|i| axis(&frame.axes, i));
-        Placed { r: in_space(&frame.r), axes, turn: frame.turn, velocity, spin }
+        PlacedMarker { r: in_space(&frame.r), axes, turn: frame.turn, velocity, spin }
     };
     frames.iter().map(place).collect()
 }
 
-type Seen = (Vec<Vec<Placed>>, Vec<Vec<f64>>);
+type Seen = (Vec<Vec<PlacedMarker>>, Vec<Vec<f64>>);
 
 /// Placements of the markers and kinetic energies of the bodies at each state.
 fn seen<const D: usize>(mechanism: &Mechanism<D>, states: &[State]) -> Seen {

@@ -44,12 +44,12 @@ mod start;
 pub use crate::study::Norm;
 pub use candidate::{Candidate, Edit, Proposal};
 pub use candidates::registry;
-pub use facts::{Facts, Placed};
+pub use facts::{Facts, PlacedMarker};
 pub use nearby::{Nearby, NearbyMotion, Robustness, Which};
 pub use promise::Promise;
 pub use relative::Relative;
 pub use rods::Rod;
-pub use run::{Difference, Run};
+pub use run::{Difference, ModelRun};
 pub use search::Trial;
 pub use source::Source;
 pub use start::{Hint, Hints, Unseen, hints};
@@ -61,14 +61,14 @@ use crate::study::{Budget, SecondOpinion};
 use base::{Accurate, Base, METHOD, contradicted, doubts};
 use bench::Bench;
 use nearby::Neighbourhood;
-use search::Found;
+use search::FoundModel;
 use serde::Serialize;
 use serde_json::{Value, json};
 use std::time::Duration;
 
 /// What is promised, and how much it may cost to find the model.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Settings {
+pub struct SimplificationSettings {
     /// Allowed difference of every watched output from the full model: 0.1 for 10 %.
     pub within: f64,
     /// How the difference is taken.
@@ -85,9 +85,16 @@ pub struct Settings {
     pub nearby: Option<Nearby>,
 }
 
-impl Default for Settings {
+impl Default for SimplificationSettings {
     fn default() -> Self {
-        Settings { within: 0.05, norm: Norm::Range, outputs: Vec::new(), at_most: 15, budget: None, nearby: None }
+        SimplificationSettings {
+            within: 0.05,
+            norm: Norm::Range,
+            outputs: Vec::new(),
+            at_most: 15,
+            budget: None,
+            nearby: None,
+        }
     }
 }
 
@@ -103,13 +110,13 @@ pub struct Simplification {
     /// The watched outputs.
     pub outputs: Vec<String>,
     /// Run of the full model by its own method.
-    pub richest: Run,
+    pub richest: ModelRun,
     /// The difference of the accurate run of the full model from a run of diffsol.
     pub second_opinion: Option<SecondOpinion>,
     /// All changes in the order in which they were tried; the last ones of kind `method`.
     pub trials: Vec<Trial>,
     /// Run of the model that is chosen.
-    pub chosen: Run,
+    pub chosen: ModelRun,
     /// Number of runs.
     pub runs: usize,
     /// Their counted work, in that of one of the full model.
@@ -159,7 +166,7 @@ const NEARBY: u32 = 2;
 /// Unknown outputs, a scene without outputs, settings out of range; a richest model that does not complete.
 pub fn simplify(
     source: &Source,
-    settings: &Settings,
+    settings: &SimplificationSettings,
     candidates: &[&dyn Candidate],
     is_stopped: &(dyn Fn() -> bool + Sync),
     watch: &mut dyn FnMut(&str, usize),
@@ -208,7 +215,7 @@ pub fn simplify(
 struct FullModel {
     facts: Facts,
     promise: Promise,
-    richest: Run,
+    richest: ModelRun,
     /// The change of its method, if there was one.
     trials: Vec<Trial>,
     runs: usize,
@@ -221,7 +228,7 @@ impl FullModel {
     /// Runs the full model, its accurate run until `is_long`. Returns also what is doubtful about it.
     fn new(
         source: &Source,
-        settings: &Settings,
+        settings: &SimplificationSettings,
         is_long: &(dyn Fn() -> bool + Sync),
         is_over: &(dyn Fn() -> bool + Sync),
         watch: &mut dyn FnMut(&str, usize),
@@ -239,7 +246,7 @@ impl FullModel {
     /// Runs it on the motions nearby that the settings ask for, until `is_long`.
     fn neighbourhood<'a>(
         &'a self,
-        settings: &Settings,
+        settings: &SimplificationSettings,
         is_long: &'a (dyn Fn() -> bool + Sync),
         is_over: &'a (dyn Fn() -> bool + Sync),
         watch: &mut dyn FnMut(&str, usize),
@@ -251,7 +258,7 @@ impl FullModel {
 }
 
 /// Returns the least model, and the cheapest method for it.
-fn least_model(bench: &mut Bench, full: &FullModel, candidates: &[&dyn Candidate]) -> Found {
+fn least_model(bench: &mut Bench, full: &FullModel, candidates: &[&dyn Candidate]) -> FoundModel {
     bench.enter(&full.richest);
     let reserved = RESERVED.min((bench.at_most - LEAST) / 2);
     let mut least = search::search(bench, &full.facts, candidates, full.trials.clone(), reserved);

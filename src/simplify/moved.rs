@@ -2,7 +2,7 @@
 
 use super::candidates::Plane;
 use super::displaced::{angle, further, progress, slide, start_at, wrapped};
-use super::facts::{Facts, Placed, placed};
+use super::facts::{Facts, PlacedMarker, placed};
 use super::source::Source;
 use crate::body::dot;
 use crate::linearize::State;
@@ -44,7 +44,7 @@ pub struct Move {
     /// Change of each joint coordinate that the scene gives at the start.
     joints: Vec<(String, f64)>,
     /// Start of each body as assembled; none where positions stay.
-    starts: Vec<(String, Placed)>,
+    starts: Vec<(String, PlacedMarker)>,
 }
 
 impl<'a> Movable<'a> {
@@ -131,7 +131,7 @@ impl<'a> Movable<'a> {
         let before = self.places(&first);
         let (state, part) = self.ahead(u).ok_or("nothing moves")?;
         change.joints = self.joints(state, part).ok_or("a coordinate at the start cannot be moved")?;
-        let ahead = |(name, place): (String, Placed)| {
+        let ahead = |(name, place): (String, PlacedMarker)| {
             let path = self.facts.path(&name)?;
             let place = further(&place, &path[0], path.get(state)?, part);
             Some((name, place))
@@ -146,7 +146,7 @@ impl<'a> Movable<'a> {
         // As assembled, so that every model starts there.
         change.starts = self.places(&there);
         let near = |own: &[f64; 3], other: &[f64; 3]| own.iter().zip(other).all(|(x, y)| (x - y).abs() <= SAME);
-        let is_there = |((_, own), (_, other)): (&(String, Placed), &(String, Placed))| {
+        let is_there = |((_, own), (_, other)): (&(String, PlacedMarker), &(String, PlacedMarker))| {
             near(&own.r, &other.r) && own.axes.iter().zip(&other.axes).all(|(own, other)| near(own, other))
         };
         if before.iter().zip(&change.starts).all(is_there) {
@@ -157,7 +157,7 @@ impl<'a> Movable<'a> {
     }
 
     /// Start of the bodies.
-    fn places(&self, prepared: &Model) -> Vec<(String, Placed)> {
+    fn places(&self, prepared: &Model) -> Vec<(String, PlacedMarker)> {
         let all = placed(prepared, &State::start(prepared));
         let names = elements(&self.source.scene, "bodies").iter().map(|body| text(body, "name"));
         names.filter_map(|name| Some((name.to_string(), *all.get(super::facts::marker(prepared, name)?)?))).collect()
@@ -224,7 +224,7 @@ impl<'a> Movable<'a> {
     }
 
     /// The place of a body in a scene of so many dimensions: in the plane that a mechanism in space moves in.
-    fn seen(&self, body: &str, place: &Placed, dimension: usize) -> Option<Placed> {
+    fn seen(&self, body: &str, place: &PlacedMarker, dimension: usize) -> Option<PlacedMarker> {
         if dimension == self.facts.dimension() {
             return Some(*place);
         }
@@ -232,10 +232,11 @@ impl<'a> Movable<'a> {
         let start = self.facts.place(body)?;
         let own = plane.seen_from(body, &start)[0];
         let flat = |vector: &[f64; 3]| plane.axes.each(|axis| dot(&axis, vector));
-        let direction = |place: &Placed| -> [f64; 3] { from_fn(|i| (0..3).map(|k| own[k] * place.axes[k][i]).sum()) };
+        let direction =
+            |place: &PlacedMarker| -> [f64; 3] { from_fn(|i| (0..3).map(|k| own[k] * place.axes[k][i]).sum()) };
         let before = plane.angle(&direction(&start));
         let now = plane.angle(&direction(place));
-        Some(Placed {
+        Some(PlacedMarker {
             r: flat(&place.r),
             turn: before + wrapped(now - before),
             velocity: flat(&place.velocity),

@@ -3,7 +3,7 @@
 use super::facts::Facts;
 use super::moved::{Movable, Move};
 use super::promise::Promise;
-use super::run::{Difference, Run, measured, sampled};
+use super::run::{Difference, ModelRun, measured, sampled};
 use super::source::Source;
 use crate::error::{Error, Result, Warning};
 use crate::study::RunSample;
@@ -210,7 +210,7 @@ impl Neighbourhood<'_> {
         let prepared = self.source.prepare(&self.movable.moved(scene, change));
         match prepared.and_then(|prepared| measured(&prepared, promise, ALLOWED, self.is_stopped)) {
             Err(error) => failed(Which::Simplified, format!("{error:#}")),
-            Ok(Run { failure: Some(failure), .. }) => failed(Which::Simplified, failure.reason),
+            Ok(ModelRun { failure: Some(failure), .. }) => failed(Which::Simplified, failure.reason),
             Ok(run) => NearbyMotion { worst: run.worst().cloned(), failure: None },
         }
     }

@@ -2,8 +2,8 @@
 
 use super::base::{METHOD, accuracy, at};
 use super::bench::Bench;
-use super::run::Run;
-use super::search::{Found, NUMERICAL, Trial};
+use super::run::ModelRun;
+use super::search::{FoundModel, NUMERICAL, Trial};
 use super::source::write_method;
 use crate::error::percent;
 use crate::method_spec::MethodSpec;
@@ -24,7 +24,7 @@ const CHEAPER: f64 = 0.9;
 const DEARER: f64 = 1.5;
 /// Tries methods and tolerances on the model that is found, and takes the cheapest that keeps the promise: the scene's own
 /// method, those that an automatic choice knows, and the best of them without its projection.
-pub fn cheapest(bench: &mut Bench, found: &mut Found) {
+pub fn cheapest(bench: &mut Bench, found: &mut FoundModel) {
     let own = found.run.method.clone();
     let exact = found.run.rows.clone();
     try_method(bench, found, &exact, own.clone());
@@ -47,7 +47,7 @@ fn first(bench: &Bench, own: &Method) -> f64 {
 }
 
 /// From a loose tolerance to tighter ones until one will do; where the first does, to looser ones.
-fn try_method(bench: &mut Bench, found: &mut Found, exact: &[Vec<f64>], own: Method) {
+fn try_method(bench: &mut Bench, found: &mut FoundModel, exact: &[Vec<f64>], own: Method) {
     let mut method = match own.step {
         Some(step) => Method { step: Some(LONGER * step), ..own.clone() },
         None => at(&own, first(bench, &own)),
@@ -58,13 +58,13 @@ fn try_method(bench: &mut Bench, found: &mut Found, exact: &[Vec<f64>], own: Met
             return;
         }
         let verdict = attempt(bench, found, exact, &method);
-        if verdict == Verdict::Dear || *known.get_or_insert(verdict) != verdict {
+        if verdict == NumericsVerdict::Dear || *known.get_or_insert(verdict) != verdict {
             return;
         }
         method = match (verdict, method.step) {
-            (Verdict::Good, Some(step)) => Method { step: Some(LONGER * step), ..method },
-            (Verdict::Good, None) if method.rtol < LOOSEST => at(&method, (method.rtol / TIGHTER).min(LOOSEST)),
-            (Verdict::Poor, None) if TIGHTER * method.rtol > own.rtol => at(&method, TIGHTER * method.rtol),
+            (NumericsVerdict::Good, Some(step)) => Method { step: Some(LONGER * step), ..method },
+            (NumericsVerdict::Good, None) if method.rtol < LOOSEST => at(&method, (method.rtol / TIGHTER).min(LOOSEST)),
+            (NumericsVerdict::Poor, None) if TIGHTER * method.rtol > own.rtol => at(&method, TIGHTER * method.rtol),
             _ => return,
         };
     }
@@ -72,7 +72,7 @@ fn try_method(bench: &mut Bench, found: &mut Found, exact: &[Vec<f64>], own: Met
 
 /// What is known of a method at a tolerance.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Verdict {
+enum NumericsVerdict {
     /// It keeps the promise.
     Good,
     /// It does not.
@@ -82,7 +82,7 @@ enum Verdict {
 }
 
 /// Runs the model by a method, and takes that if it is good and cheaper.
-fn attempt(bench: &mut Bench, found: &mut Found, exact: &[Vec<f64>], method: &Method) -> Verdict {
+fn attempt(bench: &mut Bench, found: &mut FoundModel, exact: &[Vec<f64>], method: &Method) -> NumericsVerdict {
     let mut scene = found.scene.clone();
     write_method(&mut scene, method);
     let what = format!("{} at {}", method.triple(), accuracy(method));
@@ -97,11 +97,11 @@ fn attempt(bench: &mut Bench, found: &mut Found, exact: &[Vec<f64>], method: &Me
     let is_good = reason.is_empty();
     let is_dear = seconds > DEARER * best || result.as_ref().is_ok_and(|run| run.is_too_slow);
     let verdict = if is_dear {
-        Verdict::Dear
+        NumericsVerdict::Dear
     } else if is_good {
-        Verdict::Good
+        NumericsVerdict::Good
     } else {
-        Verdict::Poor
+        NumericsVerdict::Poor
     };
     if is_good && !is_cheaper {
         reason = "it costs as much".to_string();
@@ -120,7 +120,7 @@ fn attempt(bench: &mut Bench, found: &mut Found, exact: &[Vec<f64>], method: &Me
 }
 
 /// Reason to refuse a method; empty if it is good.
-fn refusal(bench: &Bench, run: &Run, exact: &[Vec<f64>]) -> String {
+fn refusal(bench: &Bench, run: &ModelRun, exact: &[Vec<f64>]) -> String {
     let numerical = bench.promise.difference(exact, &run.rows).unwrap_or(f64::INFINITY);
     let is_coarse = numerical > NUMERICAL * bench.promise.within;
     let reason = run.refusal(bench.promise.within);

@@ -57,7 +57,7 @@ pub fn record(
     is_stopped: &(dyn Fn() -> bool + Sync),
 ) -> Result<Recorded> {
     let system = prepared.system();
-    let mut memory = Memory {
+    let mut memory = RunRecorder {
         system,
         watched,
         scratch: Scratch::default(),
@@ -80,7 +80,7 @@ pub fn record(
     }
 }
 
-struct Memory<'a> {
+struct RunRecorder<'a> {
     system: &'a dyn MechanicalSystem,
     watched: &'a Watched,
     scratch: Scratch,
@@ -89,7 +89,7 @@ struct Memory<'a> {
     watch: Watch<'a>,
 }
 
-impl Sink for Memory<'_> {
+impl Sink for RunRecorder<'_> {
     fn accepted(&mut self, state: &Observation) {
         self.watch.add(state);
     }

@@ -1,6 +1,6 @@
 //! Motions of markers against each other.
 
-use super::facts::{Facts, Placed};
+use super::facts::{Facts, PlacedMarker};
 use crate::body::{dot, norm, sub};
 use crate::math::array::{Each, from_fn};
 use crate::math::largest;
@@ -28,8 +28,8 @@ impl Relative {
 impl Facts {
     /// Relative motion of the markers `a` and `b`.
     pub fn relative(&self, a: &str, b: &str) -> Option<Relative> {
-        let pairs: Vec<(Placed, Placed)> = self.path(a)?.into_iter().zip(self.path(b)?).collect();
-        let local = |(a, b): &(Placed, Placed)| {
+        let pairs: Vec<(PlacedMarker, PlacedMarker)> = self.path(a)?.into_iter().zip(self.path(b)?).collect();
+        let local = |(a, b): &(PlacedMarker, PlacedMarker)| {
             let gap = sub(&b.r, &a.r);
             let rotation: [[f64; 3]; 3] = from_fn(|i| from_fn(|j| dot(&a.axes[j], &b.axes[i])));
             (a.axes.each(|axis| dot(&axis, &gap)), rotation)
@@ -50,7 +50,7 @@ impl Facts {
     /// Length between the markers `a` and `b` along the motion: least, mean and largest, m.
     pub fn lengths(&self, a: &str, b: &str) -> Option<[f64; 3]> {
         let pairs = self.path(a)?.into_iter().zip(self.path(b)?);
-        let length = |(a, b): (Placed, Placed)| norm(&sub(&b.r, &a.r));
+        let length = |(a, b): (PlacedMarker, PlacedMarker)| norm(&sub(&b.r, &a.r));
         let lengths: Vec<f64> = pairs.map(length).collect();
         let least = lengths.iter().copied().fold(f64::INFINITY, f64::min);
         Some([least, lengths.iter().sum::<f64>() / lengths.len().max(1) as f64, largest(&lengths)])

@@ -2,7 +2,7 @@
 
 use super::bench::mechanism;
 use super::candidates::Link;
-use super::facts::{Facts, Placed};
+use super::facts::{Facts, PlacedMarker};
 use super::held::Tie;
 use crate::body::{norm, sub};
 use crate::scene::document::{elements, text};
@@ -59,7 +59,7 @@ fn link(facts: &Facts, body: &Value) -> Option<AxialForce> {
     let output =
         |(pin, component): (&Tie, &&str)| json!({ "measure": "reaction", "of": pin.name(), "component": component });
     let outputs = pins.iter().flat_map(|pin| components.iter().map(move |component| (pin, component))).map(output);
-    let along = |(first, second): (Placed, Placed)| {
+    let along = |(first, second): (PlacedMarker, PlacedMarker)| {
         let gap = sub(&second.r, &first.r);
         let size = norm(&gap);
         // A reaction acts on the second body of its joint.

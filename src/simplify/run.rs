@@ -13,7 +13,7 @@ use std::time::Duration;
 
 /// A run of a model.
 #[derive(Clone, Debug, Serialize)]
-pub struct Run {
+pub struct ModelRun {
     /// n_v.
     pub velocities: usize,
     /// n_c.
@@ -48,7 +48,7 @@ pub struct Difference {
     pub error: f64,
 }
 
-impl Run {
+impl ModelRun {
     /// The output that is farthest off; none where the run failed.
     pub fn worst(&self) -> Option<&Difference> {
         self.outputs.iter().max_by(|a, b| a.error.total_cmp(&b.error))
@@ -107,14 +107,14 @@ pub fn measured(
     promise: &Promise,
     allowed: Duration,
     is_stopped: &(dyn Fn() -> bool + Sync),
-) -> Result<Run> {
+) -> Result<ModelRun> {
     let names = promise.names();
     let RunSample { rows, statistics, failure, is_too_slow, seconds, .. } =
         sampled(prepared, &names, allowed, is_stopped)?;
     let Dimensions { v, lambda, .. } = prepared.system().dimensions();
     let errors = failure.is_none().then(|| promise.errors(&rows)).flatten().unwrap_or_default();
     let differences = names.into_iter().zip(errors).map(|(name, error)| Difference { name, error });
-    Ok(Run {
+    Ok(ModelRun {
         velocities: v,
         constraints: lambda,
         method: prepared.method.clone(),

@@ -4,7 +4,7 @@ use super::bench::Bench;
 use super::candidate::{Candidate, Proposal};
 use super::facts::Facts;
 use super::nearby::Robustness;
-use super::run::Run;
+use super::run::ModelRun;
 use crate::error::{percent, short_list};
 use serde::Serialize;
 use serde_json::Value;
@@ -37,7 +37,7 @@ pub struct Trial {
     /// Estimated relative effect.
     pub estimated: f64,
     /// Run of the model with all that was kept before and this change; none where it was not run.
-    pub run: Option<Run>,
+    pub run: Option<ModelRun>,
     /// True if the change was kept.
     pub is_kept: bool,
     /// Reason why it was not; empty if it was.
@@ -45,21 +45,21 @@ pub struct Trial {
 }
 
 /// The model that the search has come to.
-pub struct Found {
+pub struct FoundModel {
     pub scene: Value,
-    pub run: Run,
+    pub run: ModelRun,
     /// The promise on motions nearby; none where these are not tried, or nothing was changed.
     pub robustness: Option<Robustness>,
     /// All changes in the order in which they were tried.
     pub trials: Vec<Trial>,
 }
 
-impl Found {
+impl FoundModel {
     /// Takes a model that keeps the promise, if it does so on motions nearby.
     ///
     /// # Errors
     /// Reason why it does not.
-    pub fn take(&mut self, bench: &mut Bench, scene: Value, run: &Run) -> Result<(), String> {
+    pub fn take(&mut self, bench: &mut Bench, scene: Value, run: &ModelRun) -> Result<(), String> {
         self.robustness = bench.robustness(&scene)?;
         (self.scene, self.run) = (scene, run.clone());
         Ok(())
@@ -76,14 +76,14 @@ struct Idea {
 }
 
 /// Indices of ideas that are tried together.
-type Group = Vec<usize>;
+type IdeaGroup = Vec<usize>;
 
-struct Search<'a, 'b> {
+struct ModelSearch<'a, 'b> {
     bench: &'a mut Bench<'b>,
     ideas: Vec<Idea>,
     settled: Vec<(&'static str, String)>,
     reserved: usize,
-    found: Found,
+    found: FoundModel,
 }
 
 /// Tries the changes that the candidates propose after what was tried, `reserved` runs being left over.
@@ -93,9 +93,9 @@ pub fn search(
     candidates: &[&dyn Candidate],
     trials: Vec<Trial>,
     reserved: usize,
-) -> Found {
-    let found = Found { scene: facts.scene().clone(), run: bench.richest.clone(), robustness: None, trials };
-    let mut search = Search { bench, ideas: Vec::new(), settled: Vec::new(), reserved, found };
+) -> FoundModel {
+    let found = FoundModel { scene: facts.scene().clone(), run: bench.richest.clone(), robustness: None, trials };
+    let mut search = ModelSearch { bench, ideas: Vec::new(), settled: Vec::new(), reserved, found };
     let own = facts.at_once(&facts.prepared.mechanism);
     for candidate in candidates {
         for proposal in candidate.propose(facts) {
@@ -109,7 +109,7 @@ pub fn search(
     search.found
 }
 
-impl Search<'_, '_> {
+impl ModelSearch<'_, '_> {
     /// Takes up a proposal that is possible by itself and not hopeless. Its effect is at least what it does at once to
     /// the outputs at states of the full model.
     fn consider(
@@ -152,22 +152,22 @@ impl Search<'_, '_> {
     }
 
     /// All ideas: of each kind those of different subjects together, the ones that save most first.
-    fn queue(&self) -> VecDeque<Group> {
+    fn queue(&self) -> VecDeque<IdeaGroup> {
         let mut order: Vec<usize> = (0..self.ideas.len()).collect();
         order.sort_by_key(|i| self.ideas[*i].size);
-        let mut groups: Vec<Group> = Vec::new();
+        let mut groups: Vec<IdeaGroup> = Vec::new();
         for i in order {
             let own = &self.ideas[i];
             // The next group of the kind that has no alternative of the subject yet.
             let goes_with =
                 |other: &Idea| other.candidate == own.candidate && other.proposal.subject != own.proposal.subject;
-            let fits = |group: &&mut Group| group.iter().all(|k| goes_with(&self.ideas[*k]));
+            let fits = |group: &&mut IdeaGroup| group.iter().all(|k| goes_with(&self.ideas[*k]));
             match groups.iter_mut().find(fits) {
                 Some(group) => group.push(i),
                 None => groups.push(vec![i]),
             }
         }
-        let key = |group: &Group| {
+        let key = |group: &IdeaGroup| {
             let saved = group.iter().map(|i| self.ideas[*i].size).min().unwrap_or(0);
             (self.is_doubtful(group), saved)
         };
@@ -199,7 +199,7 @@ impl Search<'_, '_> {
     }
 
     /// Tries what a group has left; one that is refused is tried in halves, those of the smaller effects first.
-    fn attempt(&mut self, members: Group, queue: &mut VecDeque<Group>) {
+    fn attempt(&mut self, members: IdeaGroup, queue: &mut VecDeque<IdeaGroup>) {
         let is_open = |i: &usize| {
             let Idea { candidate, proposal, .. } = &self.ideas[*i];
             !self.settled.iter().any(|(kind, subject)| kind == candidate && *subject == proposal.subject)
@@ -213,7 +213,7 @@ impl Search<'_, '_> {
             return;
         }
         let trial = self.run(&group);
-        if let ([own], Some(worst), false) = (&group[..], trial.run.as_ref().and_then(Run::worst), trial.is_kept) {
+        if let ([own], Some(worst), false) = (&group[..], trial.run.as_ref().and_then(ModelRun::worst), trial.is_kept) {
             self.correct(*own, worst.error);
         }
         if trial.is_kept {
@@ -249,13 +249,13 @@ impl Search<'_, '_> {
     }
 
     /// Reason to refuse a model; empty if it is kept.
-    fn refusal(&self, run: &Run) -> String {
+    fn refusal(&self, run: &ModelRun) -> String {
         let is_dearer = || run.work > DEARER * self.found.run.work;
         let reason = run.refusal(self.bench.promise.within);
         reason.or_else(|| is_dearer().then(|| "it takes more work".to_string())).unwrap_or_default()
     }
 
-    fn trial(&self, group: &[usize], run: Option<Run>, reason: String) -> Trial {
+    fn trial(&self, group: &[usize], run: Option<ModelRun>, reason: String) -> Trial {
         let list = |text: fn(&Proposal) -> &String| -> Vec<String> {
             group.iter().map(|i| text(&self.ideas[*i].proposal).clone()).collect()
         };

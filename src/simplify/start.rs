@@ -3,7 +3,7 @@
 use super::bench::mechanism;
 use super::candidate::{Candidate, Proposal};
 use super::edit::{carrier, elements, pair, text};
-use super::facts::{Facts, Placed, marker, placed};
+use super::facts::{Facts, PlacedMarker, marker, placed};
 use super::modes;
 use super::rods::{Rod, rods};
 use super::source::Source;
@@ -140,7 +140,7 @@ fn unseen_mode(mode: &Mode, seen: f64, names: &[String]) -> Unseen {
 }
 
 /// The start, the state to which it goes on, and that at an end of each mode.
-fn small_motions(prepared: &Model, lines: &[Line], modes: &[&Mode], time: f64) -> Vec<State> {
+fn small_motions(prepared: &Model, lines: &[RodEnds], modes: &[&Mode], time: f64) -> Vec<State> {
     let start = State::start(prepared);
     let reach = |change: &[f64]| largest_speed(prepared, lines, change) / REACH;
     let on = way_on(prepared, reach, time);
@@ -173,9 +173,9 @@ fn way_on(prepared: &Model, reach: impl Fn(&[f64]) -> f64, time: f64) -> Option<
 }
 
 /// The markers at the ends of a rod without mass.
-type Line = [usize; 2];
+type RodEnds = [usize; 2];
 
-fn lines(source: &Source, prepared: &Model) -> Vec<Line> {
+fn lines(source: &Source, prepared: &Model) -> Vec<RodEnds> {
     let rods = elements(&source.scene, "joints").iter().filter(|joint| text(joint, "type") == "distance");
     let ends = |[a, b]: [&str; 2]| Some([marker(prepared, a)?, marker(prepared, b)?]);
     rods.filter_map(|rod| pair(rod).and_then(ends)).collect()
@@ -183,11 +183,11 @@ fn lines(source: &Source, prepared: &Model) -> Vec<Line> {
 
 /// The largest angular velocity of a body or rod, rad/s, and velocity of a marker, in lengths of the scene per second, at
 /// the start with the velocities `v`.
-fn largest_speed(prepared: &Model, lines: &[Line], v: &[f64]) -> f64 {
+fn largest_speed(prepared: &Model, lines: &[RodEnds], v: &[f64]) -> f64 {
     let length = prepared.system().facts().length;
     let placed = placed(prepared, &State { v: v.to_vec(), ..State::start(prepared) });
-    let speed = |place: &Placed| (norm(&place.velocity) / length).max(norm(&place.spin));
-    let turns = |[a, b]: &Line| {
+    let speed = |place: &PlacedMarker| (norm(&place.velocity) / length).max(norm(&place.spin));
+    let turns = |[a, b]: &RodEnds| {
         let gap = sub(&placed[*b].r, &placed[*a].r);
         norm(&cross(&gap, &sub(&placed[*b].velocity, &placed[*a].velocity))) / dot(&gap, &gap)
     };

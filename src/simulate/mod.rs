@@ -172,7 +172,7 @@ fn within(method: &Method, system: &dyn MechanicalSystem) -> Result<Option<Box<d
 }
 
 /// The parts of a run.
-pub(crate) struct Parts<'a> {
+pub(crate) struct RunParts<'a> {
     pub problem: Problem<'a>,
     /// The entry of the integrator.
     pub entry: &'static IntegratorEntry,
@@ -194,7 +194,7 @@ impl<'a> TimeLoop<'a> {
         let mut of_steps = problem()?;
         // Output rows show reactions; steps need the motion alone.
         of_steps.dynamics.wants_least = false;
-        let parts = Parts {
+        let parts = RunParts {
             problem: of_steps,
             entry,
             integrator: method.make_integrator(system)?,
@@ -207,7 +207,7 @@ impl<'a> TimeLoop<'a> {
         Ok(TimeLoop::of(parts, tolerance, method.step, span, y))
     }
 
-    fn of(parts: Parts<'a>, tolerance: Tolerance, fixed: Option<f64>, span: Span, y: Vec<f64>) -> Self {
+    fn of(parts: RunParts<'a>, tolerance: Tolerance, fixed: Option<f64>, span: Span, y: Vec<f64>) -> Self {
         let zeros = || vec![0.0; y.len()];
         let system = parts.problem.dynamics.system;
         TimeLoop {

@@ -1,6 +1,6 @@
 //! A simulation in segments that end at given times, between which the state may be changed.
 
-use super::{Parts, Sink, Span, TimeLoop};
+use super::{RunParts, Sink, Span, TimeLoop};
 use crate::error::Failure;
 use crate::integrator::Tolerance;
 
@@ -12,7 +12,7 @@ pub(crate) struct Segments<'a> {
 
 impl<'a> Segments<'a> {
     /// Starts from the flat state `y` at `start`; `end` is the last time.
-    pub fn new(parts: Parts<'a>, tolerance: Tolerance, start: f64, end: f64, y: Vec<f64>) -> Self {
+    pub fn new(parts: RunParts<'a>, tolerance: Tolerance, start: f64, end: f64, y: Vec<f64>) -> Self {
         let span = Span { start, end, output_step: f64::INFINITY };
         Segments { run: TimeLoop::of(parts, tolerance, None, span, y), is_begun: false }
     }

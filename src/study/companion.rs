@@ -148,7 +148,7 @@ fn rerun(prepared: &Model, span: Span, parts: &[Part], change: &dyn Fn(&Method) 
     let mut companion =
         Companion { method, part, order, rows: Vec::new(), statistics: Statistics::default(), failure: None };
     let Ok(watched) = Watched::new(system, &[]) else { return companion };
-    let mut sink = Rows { system, watched, scratch: Scratch::default(), rows: Vec::new(), show, stop };
+    let mut sink = WatchedRows { system, watched, scratch: Scratch::default(), rows: Vec::new(), show, stop };
     let mut saved: Option<Checkpoint> = None;
     for (part, Changed { method, .. }) in parts.iter().zip(&methods) {
         let start = saved.as_ref().map_or(Start::State(q, v), Start::Saved);
@@ -250,7 +250,7 @@ impl Changed {
 const DIGITS: usize = 6;
 
 /// The watched quantities of each row.
-struct Rows<'a> {
+struct WatchedRows<'a> {
     system: &'a dyn MechanicalSystem,
     watched: Watched,
     scratch: Scratch,
@@ -259,7 +259,7 @@ struct Rows<'a> {
     stop: &'a (dyn Fn() -> Option<Stop> + Sync),
 }
 
-impl Sink for Rows<'_> {
+impl Sink for WatchedRows<'_> {
     fn accepted(&mut self, state: &Observation) {
         (self.show)(state.t);
     }

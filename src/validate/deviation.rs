@@ -28,14 +28,14 @@ pub struct Deviation {
     /// The largest uncertainty of all entries in that scale.
     pub relative_uncertainty: f64,
     /// The entry.
-    pub entry: Entry,
+    pub entry: MatrixEntry,
     /// True if all entries agree within three uncertainties.
     pub is_right: bool,
 }
 
 /// An entry of a matrix, by the names of its row and column.
 #[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct Entry {
+pub struct MatrixEntry {
     /// State or output.
     pub row: String,
     /// State or input.
@@ -170,7 +170,7 @@ impl Comparison {
         let relative = if difference.is_nan() { 0.0 } else { difference * scale };
         // The usual three.
         let is_near = difference <= 3.0 * uncertainty || difference <= HALF_OF_THE_DIGITS * model.abs();
-        let entry = Entry { row: names[0][i].clone(), column: names[1][j].clone(), model, measured };
+        let entry = MatrixEntry { row: names[0][i].clone(), column: names[1][j].clone(), model, measured };
         let relative_uncertainty = uncertainty * scale;
         let is_right = difference.is_nan() || is_near;
         Ok(Deviation { difference, uncertainty, relative, relative_uncertainty, entry, is_right })

@@ -56,7 +56,7 @@ pub struct Along<'c> {
 }
 
 /// A perturbation of the state or of an input.
-struct Column {
+struct PerturbedVariable {
     name: String,
     /// Input and the derivative of it that is 1; none: a state.
     input: Option<(usize, usize)>,
@@ -77,7 +77,7 @@ struct Bench<'m, 'a> {
     variation: &'m mut Variation<'a>,
     model: &'m Minimal,
     rate: f64,
-    columns: Vec<Column>,
+    columns: Vec<PerturbedVariable>,
     /// (dq, dv) of each column.
     changes: Changes,
 }
@@ -105,11 +105,11 @@ pub fn measure(
 impl<'m, 'a> Bench<'m, 'a> {
     fn new(variation: &'m mut Variation<'a>, model: &'m Minimal, rate: f64, has_inputs: bool) -> Self {
         let Minimal { coordinates, built } = model;
-        let state = |name: &String| Column { name: name.clone(), input: None, is_input: false };
-        let mut columns: Vec<Column> = built.states.iter().map(state).collect();
+        let state = |name: &String| PerturbedVariable { name: name.clone(), input: None, is_input: false };
+        let mut columns: Vec<PerturbedVariable> = built.states.iter().map(state).collect();
         let names = variation.names().0;
         let inputs = || names.iter().zip(&built.input_states.orders).enumerate().filter(|_| has_inputs);
-        let column = |name: &str, j: usize, i: usize, is_input: bool| Column {
+        let column = |name: &str, j: usize, i: usize, is_input: bool| PerturbedVariable {
             name: format!("{name}{}", "'".repeat(i)),
             input: Some((j, i)),
             is_input,

@@ -23,7 +23,7 @@ mod sequence;
 mod span;
 mod subject;
 
-pub use deviation::{Deviation, Entry, Reason, Unjudged};
+pub use deviation::{Deviation, MatrixEntry, Reason, Unjudged};
 pub use direction::Direction;
 #[doc(hidden)]
 pub use frozen::Frozen;

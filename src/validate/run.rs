@@ -8,7 +8,7 @@ pub use super::regular::Event;
 use super::regular::{End, end};
 use super::sequence::sequence;
 use super::subject::Subject;
-use super::{Decay, Deviation, Direction, Entry, Frozen, InputCheck, PerturbationSequence, Settings};
+use super::{Decay, Deviation, Direction, Frozen, InputCheck, MatrixEntry, PerturbationSequence, Settings};
 use crate::error::{Result, percent, short_list, significant};
 use crate::linearize::{Built, Coordinates, State, Variation, refuse_large};
 use crate::system::{Column, MechanicalSystem};
@@ -298,7 +298,7 @@ fn told(name: char, deviation: &Deviation) -> String {
     if *is_right {
         return format!("{name} right to {relative:.0e} (can be told to {relative_uncertainty:.0e})");
     }
-    let Entry { row, column, model, .. } = entry;
+    let MatrixEntry { row, column, model, .. } = entry;
     format!(
         "{name} wrong by {} in row `{row}`, column `{column}`, which is {} (can be told to {uncertainty:.0e})",
         significant(*difference, 3),

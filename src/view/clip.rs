@@ -1,7 +1,7 @@
 //! Poses of a mechanism over time.
 
 use super::encode::Floats;
-use super::parts::{Parts, Source, line_points};
+use super::parts::{PageParts, Source, line_points};
 use crate::math::rotation::quaternion_from_axes;
 use crate::report::mechanism::{Pose, Snapshot};
 use serde::Serialize;
@@ -25,7 +25,7 @@ pub struct Clip {
 
 impl Clip {
     /// Adds a row; `reactions` has a value for each joint of the scene, or none.
-    pub fn add(&mut self, parts: &Parts, t: f64, scene: &Snapshot, reactions: &[f64]) {
+    pub fn add(&mut self, parts: &PageParts, t: f64, scene: &Snapshot, reactions: &[f64]) {
         self.t.push(t);
         for source in &parts.sources {
             self.add_pose(&pose(scene, *source), scene.is_planar);

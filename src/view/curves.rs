@@ -1,6 +1,6 @@
 //! Curves over time below the mechanism.
 
-use super::Run;
+use super::ShownMotion;
 use super::encode::Floats;
 use crate::analysis::Ledger;
 use crate::report::quantity;
@@ -44,7 +44,7 @@ impl Curve {
 
 /// Returns outputs, or coordinates where there are none, drift and energies of a run at these rows, and the number that
 /// these would be without a limit.
-pub fn curves(run: &Run, rows: &[usize]) -> (Vec<Curve>, usize) {
+pub fn curves(run: &ShownMotion, rows: &[usize]) -> (Vec<Curve>, usize) {
     let mut curves = outputs(run, rows);
     let left_out = curves.len().saturating_sub(MOST);
     curves.truncate(MOST);
@@ -54,7 +54,7 @@ pub fn curves(run: &Run, rows: &[usize]) -> (Vec<Curve>, usize) {
     (curves, all)
 }
 
-fn outputs(run: &Run, rows: &[usize]) -> Vec<Curve> {
+fn outputs(run: &ShownMotion, rows: &[usize]) -> Vec<Curve> {
     let trajectory = run.trajectory;
     let values = |column: usize| rows.iter().map(move |row| trajectory.rows[*row][column]);
     if trajectory.outputs.is_empty() {
@@ -74,7 +74,7 @@ fn outputs(run: &Run, rows: &[usize]) -> Vec<Curve> {
 }
 
 /// Positions and velocities at a value of zero, which no logarithmic axis has, are left out.
-fn drift(run: &Run, rows: &[usize]) -> Vec<Curve> {
+fn drift(run: &ShownMotion, rows: &[usize]) -> Vec<Curve> {
     if run.drift.len() != run.trajectory.rows.len() || run.trajectory.names.lambda.is_empty() {
         return Vec::new();
     }
@@ -86,7 +86,7 @@ fn drift(run: &Run, rows: &[usize]) -> Vec<Curve> {
     ["positions |φ|", "velocities |φ′|"].into_iter().enumerate().map(level).collect()
 }
 
-fn energy(run: &Run, rows: &[usize]) -> Vec<Curve> {
+fn energy(run: &ShownMotion, rows: &[usize]) -> Vec<Curve> {
     if run.energy.len() != run.trajectory.rows.len() {
         return Vec::new();
     }

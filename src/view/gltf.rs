@@ -3,11 +3,11 @@
 //! Each frame of the mechanism is a node with a channel of translations and one of rotations. Bodies and joints are fixed
 //! to these nodes. Rods, springs and the pieces of bent beams are nodes with a channel of scales, too.
 
-use super::Run;
+use super::ShownMotion;
 use super::clip::pose;
 use super::glb::{Glb, turned};
 use super::moving::scene_at;
-use super::parts::{BodyPart, LinkPart, Parts, Place, line_points};
+use super::parts::{BodyPart, LinkPart, PageParts, Place, line_points};
 use super::primitives::{Placement, Primitive};
 use super::rows::even_rows;
 use crate::body::{Form, Solid, norm, sub};
@@ -18,14 +18,14 @@ use std::f64::consts::FRAC_1_SQRT_2;
 const STILL: [f64; 4] = [0.0, 0.0, 0.0, 1.0];
 
 /// Returns the file of a run with at least one row, with at most `most` poses.
-pub fn glb(run: &Run, most: usize) -> Vec<u8> {
+pub fn glb(run: &ShownMotion, most: usize) -> Vec<u8> {
     let mut rows = even_rows(run.rows, most);
     // Times of glTF increase; those of a jump are two rows.
     rows.dedup_by_key(|row| run.trajectory.rows[*row][0].to_bits());
     let scenes: Vec<Snapshot> = rows.iter().map(|row| scene_at(run, *row)).collect();
     let Some(first) = scenes.first() else { return Vec::new() };
     let mechanism = &run.prepared.mechanism;
-    let parts = Parts::new(first, &solids(mechanism), &[], usize::MAX);
+    let parts = PageParts::new(first, &solids(mechanism), &[], usize::MAX);
     let times = rows.iter().map(|row| run.trajectory.rows[*row][0] - run.trajectory.rows[0][0]);
     let mut glb = Glb::new(&run.prepared.name, upright(up(mechanism)), times);
     // Frame 0 is the ground.

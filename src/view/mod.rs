@@ -31,7 +31,7 @@ use crate::system::{OperatingPoint, Scratch};
 use crate::trajectory::{Trajectory, values};
 
 /// A motion that a page shows.
-pub struct Run<'a> {
+pub struct ShownMotion<'a> {
     /// Name beside its colour, where a page shows several.
     pub label: String,
     /// Its scene, with the parameters of the run.
@@ -48,11 +48,11 @@ pub struct Run<'a> {
     pub bars: Option<&'a ErrorBars>,
 }
 
-impl<'a> Run<'a> {
+impl<'a> ShownMotion<'a> {
     /// A motion of which nothing but its rows is known.
     pub fn new(prepared: &'a Model, trajectory: &'a Trajectory) -> Self {
         let rows = trajectory.rows.len();
-        Run { label: prepared.name.clone(), prepared, trajectory, rows, drift: &[], energy: &[], bars: None }
+        ShownMotion { label: prepared.name.clone(), prepared, trajectory, rows, drift: &[], energy: &[], bars: None }
     }
 }
 

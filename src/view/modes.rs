@@ -1,7 +1,7 @@
 //! Mode shapes of a linear model as motions.
 
 use super::clip::Clip;
-use super::parts::Parts;
+use super::parts::PageParts;
 use crate::linearize::LinearModel;
 use crate::prepared::Model;
 use crate::report::mechanism::{Swing, at_rest, mode_title, shaped};
@@ -25,7 +25,7 @@ const PHASES: usize = 20;
 const MOST: usize = 20;
 
 /// Returns the slowest physical modes with a shape that fit into this many numbers, and their number without a limit.
-pub fn modes(prepared: &Model, model: &LinearModel, parts: &Parts, numbers: usize) -> (Vec<ModePart>, usize) {
+pub fn modes(prepared: &Model, model: &LinearModel, parts: &PageParts, numbers: usize) -> (Vec<ModePart>, usize) {
     let rest = at_rest(prepared, model);
     let found = shaped(model);
     let mut shown: Vec<ModePart> = Vec::new();

@@ -1,8 +1,8 @@
 //! A mechanism of a page with its motion, within a budget of numbers.
 
-use super::Run;
+use super::ShownMotion;
 use super::clip::Clip;
-use super::parts::{BodyPart, LinkPart, Parts, TracePart};
+use super::parts::{BodyPart, LinkPart, PageParts, TracePart};
 use crate::linearize::State;
 use crate::report::mechanism::{Snapshot, output_traces, reactions, snapshot, solids};
 use serde::Serialize;
@@ -23,42 +23,42 @@ pub struct Moving {
 
 impl Moving {
     /// The motion of a run at these rows.
-    pub fn new(run: &Run, parts: Parts, rows: &[usize]) -> Self {
+    pub fn new(run: &ShownMotion, parts: PageParts, rows: &[usize]) -> Self {
         let mut clip = Clip::default();
         rows.iter().for_each(|row| add(&mut clip, run, &parts, *row));
-        let Parts { bodies, joints, forces, traces, .. } = parts;
+        let PageParts { bodies, joints, forces, traces, .. } = parts;
         Moving { label: run.label.clone(), bodies, joints, forces, traces, clip }
     }
 }
 
 /// Returns the parts of a run that fit into a page with this many numbers.
-pub fn fitting_parts(run: &Run, numbers: usize) -> Parts {
+pub fn fitting_parts(run: &ShownMotion, numbers: usize) -> PageParts {
     let mechanism = &run.prepared.mechanism;
     // A pose, and about one joint a body.
     let of_body = if mechanism.dimension() == 2 { 4 } else { 8 };
     let most = numbers / LEAST_ROWS / of_body;
-    Parts::new(&scene_at(run, 0), &solids(mechanism), &output_traces(mechanism), most)
+    PageParts::new(&scene_at(run, 0), &solids(mechanism), &output_traces(mechanism), most)
 }
 
 /// Returns how many numbers a row has.
-pub fn numbers_of_row(run: &Run, parts: &Parts) -> usize {
+pub fn numbers_of_row(run: &ShownMotion, parts: &PageParts) -> usize {
     let mut clip = Clip::default();
     add(&mut clip, run, parts, 0);
     clip.len()
 }
 
-fn state(run: &Run, row: usize) -> State {
+fn state(run: &ShownMotion, row: usize) -> State {
     let row = &run.trajectory.rows[row];
     let (q, v, _) = run.trajectory.row_state(row);
     State { t: row[0], q: q.to_vec(), v: v.to_vec() }
 }
 
 /// Returns the mechanism at a row.
-pub fn scene_at(run: &Run, row: usize) -> Snapshot {
+pub fn scene_at(run: &ShownMotion, row: usize) -> Snapshot {
     snapshot(&run.prepared.mechanism, &state(run, row))
 }
 
-fn add(clip: &mut Clip, run: &Run, parts: &Parts, row: usize) {
+fn add(clip: &mut Clip, run: &ShownMotion, parts: &PageParts, row: usize) {
     let state = state(run, row);
     let (_, _, lambda) = run.trajectory.row_state(&run.trajectory.rows[row]);
     let mechanism = &run.prepared.mechanism;

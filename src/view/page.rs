@@ -1,6 +1,6 @@
 //! The page itself: its data in the frame of `page.html`.
 
-use super::Run;
+use super::ShownMotion;
 use super::curves::{Curve, curves};
 use super::encode::{base64, in_script};
 use super::modes::{ModePart, modes};
@@ -30,7 +30,7 @@ pub const ROWS: usize = 600;
 /// What a page shows beside a run.
 pub struct Extras<'a> {
     /// Other runs, as ghosts.
-    pub ghosts: Vec<Run<'a>>,
+    pub ghosts: Vec<ShownMotion<'a>>,
     /// Linear model whose modes it shows.
     pub model: Option<&'a LinearModel>,
     /// Notes below the title.
@@ -61,7 +61,7 @@ struct Data<'a> {
 }
 
 /// Returns the page of a run with at least one row.
-pub fn page(run: &Run, extras: &Extras) -> String {
+pub fn page(run: &ShownMotion, extras: &Extras) -> String {
     let mut notes = extras.notes.clone();
     let parts = fitting_parts(run, NUMBERS);
     note_rest(&mut notes, "bodies", parts.bodies.len(), parts.all_bodies);
@@ -101,7 +101,7 @@ fn note_rest(notes: &mut Vec<String>, what: &str, shown: usize, all: usize) {
 }
 
 /// Returns another run; `numbers` are those that the page has room for.
-fn moving_ghost(ghost: &Run, rows: usize, numbers: usize) -> Moving {
+fn moving_ghost(ghost: &ShownMotion, rows: usize, numbers: usize) -> Moving {
     let parts = fitting_parts(ghost, NUMBERS);
     let rows = rows.min(numbers / numbers_of_row(ghost, &parts));
     Moving::new(ghost, parts, &even_rows(ghost.rows, rows))

@@ -73,7 +73,7 @@ pub struct TracePart {
 
 /// What a page shows of a mechanism, with the frames that it needs.
 #[derive(Clone, Debug, Default)]
-pub struct Parts {
+pub struct PageParts {
     pub sources: Vec<Source>,
     pub bodies: Vec<BodyPart>,
     /// Number of the bodies of the scene.
@@ -97,10 +97,10 @@ pub fn line_points(line: &[[f64; 3]]) -> impl Iterator<Item = [f64; 3]> + '_ {
     (0..count).map(move |k| line[k * (line.len() - 1) / (count - 1).max(1)])
 }
 
-impl Parts {
+impl PageParts {
     /// Describes the first `most` bodies of a scene, and all joints and forces between these and the ground.
     pub fn new(scene: &Snapshot, solids: &[Vec<Solid>], traces: &[Trace], most: usize) -> Self {
-        let mut parts = Parts { all_bodies: scene.limbs.len(), ..Parts::default() };
+        let mut parts = PageParts { all_bodies: scene.limbs.len(), ..PageParts::default() };
         for (i, limb) in scene.limbs.iter().enumerate().take(most) {
             parts.add_body(i, limb, &solids[i]);
         }

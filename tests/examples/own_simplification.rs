@@ -1,7 +1,7 @@
 //! An own kind of simplification: a pendulum becomes a point mass on a massless rod.
 
 use holonom::parts::json;
-use holonom::research::simplify::{Candidate, Facts, Proposal, Settings, Source, simplify};
+use holonom::research::simplify::{Candidate, Facts, Proposal, SimplificationSettings, Source, simplify};
 use holonom::run::Overrides;
 
 /// A rigid body with a small moment of inertia on a pin of the ground, by its part J/(m l^2) of the whole.
@@ -48,7 +48,7 @@ fn it_is_tried_as_the_others_are() -> holonom::Result<()> {
     // No part of an own one: in this test, counted time decides which models are too slow.
     holonom::clock::count_readings();
     let source = Source::new(scene, &Overrides::default())?;
-    let settings = Settings { within: 0.01, ..Settings::default() };
+    let settings = SimplificationSettings { within: 0.01, ..SimplificationSettings::default() };
     let found = simplify(&source, &settings, &[&MathematicalPendulum], &|| false, &mut |_, _| ())?;
     assert_eq!((found.richest.velocities, found.chosen.velocities), (3, 2));
     assert!(found.chosen.error() > 1e-5 && found.chosen.error() < 0.01);

@@ -2,13 +2,13 @@
 
 use holonom::plot::AxisSpec;
 use holonom::report::simplify_figure;
-use holonom::simplify::{Difference, Norm, Run, Simplification, Trial};
+use holonom::simplify::{Difference, ModelRun, Norm, Simplification, Trial};
 use holonom::simulate::Method;
 use serde_json::Value;
 
 /// A run of a model with an error, which took so many seconds.
-fn run(seconds: f64, error: f64) -> Run {
-    Run {
+fn run(seconds: f64, error: f64) -> ModelRun {
+    ModelRun {
         velocities: 1,
         constraints: 0,
         method: Method::default(),
@@ -22,7 +22,7 @@ fn run(seconds: f64, error: f64) -> Run {
     }
 }
 
-fn trial(run: Run) -> Trial {
+fn trial(run: ModelRun) -> Trial {
     Trial {
         candidate: "section".to_string(),
         subjects: Vec::new(),

@@ -8,17 +8,17 @@ mod promise;
 use crate::scenes::model;
 use holonom::clock;
 use holonom::prepared::Overrides;
-use holonom::simplify::{Nearby, Settings, Simplification, Source, registry, simplify};
+use holonom::simplify::{Nearby, Simplification, SimplificationSettings, Source, registry, simplify};
 use serde_json::{Value, json};
 
 /// Counted time decides which models and methods are too slow.
-fn settings(within: f64, outputs: &[&str]) -> Settings {
+fn settings(within: f64, outputs: &[&str]) -> SimplificationSettings {
     clock::count_readings();
     let outputs = outputs.iter().map(|name| name.to_string()).collect();
-    Settings { within, outputs, ..Settings::default() }
+    SimplificationSettings { within, outputs, ..SimplificationSettings::default() }
 }
 
-fn found(source: Source, settings: &Settings) -> Simplification {
+fn found(source: Source, settings: &SimplificationSettings) -> Simplification {
     let found = simplify(&source, settings, registry(), &|| false, &mut |_, _| ()).unwrap();
     assert!(found.chosen.error() <= settings.within && found.runs <= settings.at_most, "{:?}", found.trials);
     // What is written is what was measured.
@@ -29,20 +29,20 @@ fn found(source: Source, settings: &Settings) -> Simplification {
     found
 }
 
-fn shipped(name: &str, set: &[(&str, f64)], until: Option<f64>, settings: &Settings) -> Simplification {
+fn shipped(name: &str, set: &[(&str, f64)], until: Option<f64>, settings: &SimplificationSettings) -> Simplification {
     let set = set.iter().map(|(name, value)| (name.to_string(), (*value).into())).collect();
     found(Source::load(&model(name), &Overrides { set, until, ..Overrides::default() }).unwrap(), settings)
 }
 
-fn scene(json: Value, settings: &Settings) -> Simplification {
+fn scene(json: Value, settings: &SimplificationSettings) -> Simplification {
     found(Source::new(json, &Overrides::default()).unwrap(), settings)
 }
 
 /// Found with the promise kept on at least 95 % of 20 motions nearby, for the work of 15 runs of the full model at
 /// most.
-fn promised(json: Value, settings: &Settings) -> Simplification {
+fn promised(json: Value, settings: &SimplificationSettings) -> Simplification {
     let nearby = Some(Nearby { by: 0.1, samples: Some(20) });
-    let found = scene(json, &Settings { nearby, ..settings.clone() });
+    let found = scene(json, &SimplificationSettings { nearby, ..settings.clone() });
     let robustness = found.robustness.as_ref().unwrap();
     assert!(robustness.counted == 20 && robustness.kept >= 19, "{:?}", robustness.motions);
     assert!(robustness.motions.iter().filter_map(|motion| motion.worst.as_ref()).any(|worst| worst.error > 0.0));
@@ -424,7 +424,7 @@ fn numerical_error_is_a_tenth_of_the_promise() {
 
 #[test]
 fn what_cannot_be_promised_is_refused() {
-    let refused = |json: Value, settings: Settings, what: &str| {
+    let refused = |json: Value, settings: SimplificationSettings, what: &str| {
         let source = Source::new(json, &Overrides::default()).unwrap();
         let error = simplify(&source, &settings, registry(), &|| false, &mut |_, _| ()).unwrap_err().to_string();
         assert!(error.contains(what), "{error}");
@@ -432,7 +432,7 @@ fn what_cannot_be_promised_is_refused() {
     let own = || pendulum(pin(), json!([]));
     refused(own(), settings(0.0, &[]), "above 0 %");
     refused(own(), settings(0.1, &["teta"]), "did you mean `theta`?");
-    refused(own(), Settings { at_most: 2, ..settings(0.1, &[]) }, "too few");
+    refused(own(), SimplificationSettings { at_most: 2, ..settings(0.1, &[]) }, "too few");
     let mut mute = own();
     mute["outputs"] = json!([]);
     refused(mute, settings(0.1, &[]), "no outputs");

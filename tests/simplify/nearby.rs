@@ -1,12 +1,12 @@
 //! Motions near the given one: what is moved, and that every model is moved the same.
 
 use super::{damper, left_out, pendulum, pin, promised, scene, settings};
-use holonom::simplify::{Nearby, Robustness, Settings};
+use holonom::simplify::{Nearby, Robustness, SimplificationSettings};
 use serde_json::{Value, json};
 
 fn near(json: Value, within: f64) -> Robustness {
     let nearby = Some(Nearby { by: 0.1, samples: Some(6) });
-    scene(json, &Settings { nearby, ..settings(within, &[]) }).robustness.unwrap()
+    scene(json, &SimplificationSettings { nearby, ..settings(within, &[]) }).robustness.unwrap()
 }
 
 /// The same samples in every run; a parameter that is a number of elements is not moved.
@@ -14,7 +14,10 @@ fn near(json: Value, within: f64) -> Robustness {
 fn a_promise_is_tried_on_motions_nearby() {
     let nearby = Some(Nearby { by: 0.1, samples: Some(6) });
     let own = || {
-        let found = scene(pendulum(pin(), json!([damper("weak", 0.01)])), &Settings { nearby, ..settings(0.05, &[]) });
+        let found = scene(
+            pendulum(pin(), json!([damper("weak", 0.01)])),
+            &SimplificationSettings { nearby, ..settings(0.05, &[]) },
+        );
         let near = found.robustness.unwrap();
         assert_eq!((near.counted, near.kept, &near.parameters[..]), (6, 6, &["m".to_string(), "k".to_string()][..]));
         assert!(near.positions && !near.velocities && near.inputs.is_empty());

@@ -6,7 +6,7 @@ use crate::cli::interrupt;
 use crate::error::{Result, percent};
 use crate::prepared::Model;
 use crate::report::tradeoff::{MeasuredModel, ModelsAndMethods};
-use crate::simplify::{Settings, Simplification, Source, registry, simplify};
+use crate::simplify::{Simplification, SimplificationSettings, Source, registry, simplify};
 use crate::study::Motion;
 use crate::study::work_precision::{Runner, WorkPrecision};
 use crate::system::Dimensions;
@@ -56,11 +56,11 @@ fn models(args: &Args, prepared: &Model, bar: &ProgressBar) -> Result<Vec<(Named
     let source = Source::load(&args.scene.path, &args.overrides())?;
     let mut models: Vec<(Named, Model)> = Vec::new();
     for within in WITHIN {
-        let settings = Settings {
+        let settings = SimplificationSettings {
             within,
             outputs: args.outputs.clone(),
             budget: Some(args.budget / SEARCH),
-            ..Settings::default()
+            ..SimplificationSettings::default()
         };
         let mut watch = |what: &str, _: usize| bar.set_message(format!("{}: {what}", prepared.name));
         let found = simplify(&source, &settings, registry(), &interrupt::is_asked, &mut watch)?;

@@ -14,7 +14,7 @@ use crate::formulation::Dynamics;
 use crate::integrator::{self, Problem, Setup, Tolerance};
 use crate::method_spec::MethodSpec;
 use crate::projection::Projection;
-use crate::simulate::{Observation, Parts, Segments, Sink, Stop};
+use crate::simulate::{Observation, RunParts, Segments, Sink, Stop};
 use crate::system::MechanicalSystem;
 use crate::tolerances;
 use bundle::Shape;
@@ -77,7 +77,7 @@ pub fn flow_until(
     let formulation = MethodSpec::named("index1");
     let setup = Setup { integrator: &integrator, formulation: &formulation, system: &carrier, is_fixed: false };
     let entry = integrator::find(&integrator)?;
-    let parts = Parts {
+    let parts = RunParts {
         problem: problem()?,
         entry,
         integrator: (entry.make)(&setup)?,

@@ -3,7 +3,7 @@
 mod pencil;
 mod rounding;
 
-use super::entry::{Built, Entry};
+use super::entry::{Built, LinearizationMethod};
 use crate::error::{Error, Result};
 use crate::formulation::{self, Dae};
 use crate::method_spec::{MethodSpec, OptionDoc};
@@ -23,7 +23,7 @@ use crate::method_spec::{MethodSpec, OptionDoc};
 /// plain projection (`frozen`), those of index 2 and 1 others: they belong to no chart. Rows of G that depend on others
 /// are dropped first, since they make the pencil singular: their multipliers stay as they are. Source: Masarati,
 /// "Direct eigenanalysis of constrained system dynamics", Proc. Inst. Mech. Eng. K 223 (2009) 335-342.
-pub const RCS: Entry = Entry {
+pub const RCS: LinearizationMethod = LinearizationMethod {
     name: "rcs",
     options: &[
         OptionDoc {

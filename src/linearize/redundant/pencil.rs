@@ -1,13 +1,13 @@
 //! The pencils (E, A) of the formulations with multipliers.
 
 use super::Built;
-use super::rounding::Parts;
+use super::rounding::PencilParts;
 use crate::error::Result;
 use crate::formulation::{Dae, DaeRow};
 use crate::linearize::changes::{Directions, directions};
 use crate::linearize::input_states::InputStates;
 use crate::linearize::model::REDUNDANT;
-use crate::linearize::perturbation::{Parts as Columns, Perturbation};
+use crate::linearize::perturbation::{ColumnBlocks as Columns, Perturbation};
 use crate::linearize::{Changes, Matrix, Variation};
 
 /// Returns the number of infinite eigenvalues with `m` independent constraints: m for a row of phi'' whose multiplier
@@ -19,7 +19,7 @@ fn infinite(dae: &Dae, m: usize) -> usize {
 
 /// The multipliers of one kind: their rows and the index of the first.
 #[derive(Clone, Copy)]
-struct Kind {
+struct MultiplierKind {
     row: DaeRow,
     at: usize,
 }
@@ -38,7 +38,7 @@ pub fn build(dae: &Dae, variation: &mut Variation) -> Result<Built> {
     let n = variation.velocities();
     let m = independent.len();
     let select = |rows: Matrix| rows.select_rows(&independent);
-    let mut parts = Parts {
+    let mut parts = PencilParts {
         k: variation.k(),
         c: variation.c(),
         g: select(variation.g()),
@@ -49,14 +49,14 @@ pub fn build(dae: &Dae, variation: &mut Variation) -> Result<Built> {
     let mut end = 2 * n;
     let mut append = |row: DaeRow| {
         end += m;
-        Kind { row, at: end - m }
+        MultiplierKind { row, at: end - m }
     };
     let lambda = append(dae.lambda);
     let eta = dae.eta.map(&mut append);
     let mu = dae.mu.map(&mut append);
     let mut e = Matrix::zeros(end, end);
     let mut a = Matrix::zeros(end, end);
-    let Parts { k, c, g, .. } = &parts;
+    let PencilParts { k, c, g, .. } = &parts;
     put(&mut e, (0, 0), &Matrix::identity(n, n));
     put(&mut e, (n, n), &variation.mass());
     put(&mut a, (0, 0), &-variation.bracket(&variation.point.v));
@@ -73,7 +73,7 @@ pub fn build(dae: &Dae, variation: &mut Variation) -> Result<Built> {
     if let (Some(mu), Some(shift)) = (mu, &shift) {
         put(&mut a, (0, mu.at), &-shift.transpose());
     }
-    for Kind { row, at } in [Some(lambda), eta, mu].into_iter().flatten() {
+    for MultiplierKind { row, at } in [Some(lambda), eta, mu].into_iter().flatten() {
         put(&mut e, (at, n), &(g * row.acceleration));
         put(&mut a, (at, 0), &parts.row(row));
     }
@@ -81,7 +81,7 @@ pub fn build(dae: &Dae, variation: &mut Variation) -> Result<Built> {
     let [mut driven, mut b] = perturbation.input_forces().map(|forces| forces.resize_vertically(n, 0.0));
     driven = driven.insert_rows(0, n, 0.0).resize_vertically(end, 0.0);
     b = b.insert_rows(0, n, 0.0).resize_vertically(end, 0.0);
-    for Kind { row, at } in [Some(lambda), eta, mu].into_iter().flatten() {
+    for MultiplierKind { row, at } in [Some(lambda), eta, mu].into_iter().flatten() {
         let [states, inputs] = perturbation.input_rows(row);
         put(&mut driven, (at, 0), &select(states));
         put(&mut b, (at, 0), &select(inputs));

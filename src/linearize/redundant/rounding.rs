@@ -5,7 +5,7 @@ use crate::linearize::changes::beside;
 use crate::linearize::{Matrix, Variation};
 
 /// K, C, G, Gd and -(Gdd, G1) of a pencil.
-pub struct Parts {
+pub struct PencilParts {
     pub k: Matrix,
     pub c: Matrix,
     pub g: Matrix,
@@ -13,10 +13,10 @@ pub struct Parts {
     pub rows: Matrix,
 }
 
-impl Parts {
+impl PencilParts {
     /// Returns the coefficients of (dq, dv) in the row 0 = c_2 (G dv' + ...) + c_1 (Gd dq + G dv) + c_0 G dq.
     pub fn row(&self, row: DaeRow) -> Matrix {
-        let Parts { g, gd, rows, .. } = self;
+        let PencilParts { g, gd, rows, .. } = self;
         let still = Matrix::zeros(g.nrows(), g.ncols());
         rows * row.acceleration - beside(gd, g) * row.velocity - beside(g, &still) * row.position
     }

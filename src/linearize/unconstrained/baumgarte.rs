@@ -2,7 +2,7 @@
 
 use super::{PROJECTED, build};
 use crate::linearize::Response;
-use crate::linearize::entry::Entry;
+use crate::linearize::entry::LinearizationMethod;
 use crate::method_spec::OptionDoc;
 
 /// ```text
@@ -12,7 +12,7 @@ use crate::method_spec::OptionDoc;
 /// Exact on the changes that the constraints allow. At an equilibrium the spurious eigenvalues are the roots of
 /// s^2 + c1 s + c0, each m times; elsewhere they differ, and mix with the physical ones: use `projected=yes` there.
 /// Cost: 2 n back-substitutions and the eigenvalues of a 2 n matrix.
-pub const BAUMGARTE: Entry = Entry {
+pub const BAUMGARTE: LinearizationMethod = LinearizationMethod {
     name: "baumgarte",
     options: &[
         OptionDoc { name: "alpha", about: "damping of phi, 1/s (default 5)" },

@@ -2,7 +2,7 @@
 
 use super::{PROJECTED, build};
 use crate::error::{Error, Result};
-use crate::linearize::entry::Entry;
+use crate::linearize::entry::LinearizationMethod;
 use crate::linearize::{Matrix, Perturbation, Response, Variation};
 use crate::method_spec::OptionDoc;
 
@@ -15,7 +15,7 @@ use crate::method_spec::OptionDoc;
 /// the underlying ODE of Baumgarte's equations with a mass matrix that is well conditioned, also with redundant rows.
 /// mu is the mean of diag(M). Without gains the spurious eigenvalues are 2 m zeros. Source: Masarati, Proc. Inst. Mech.
 /// Eng. K 225 (2011) 12-33. Cost: a QR of G^T, an LU of size n and the eigenvalues of a 2 n matrix.
-pub const FORCE_PROJECTION: Entry = Entry {
+pub const FORCE_PROJECTION: LinearizationMethod = LinearizationMethod {
     name: "force_projection",
     options: &[
         OptionDoc { name: "alpha", about: "damping of phi, 1/s (default 0)" },

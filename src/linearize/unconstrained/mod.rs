@@ -15,7 +15,7 @@ use super::entry::{Built, Linear};
 use super::input_states::InputStates;
 use super::minimal::restrict;
 use super::model::REDUNDANT;
-use super::perturbation::{Parts, Perturbation};
+use super::perturbation::{ColumnBlocks, Perturbation};
 use super::response::observe;
 use super::{Changes, Matrix, Response, Variation};
 use crate::error::Result;
@@ -43,7 +43,7 @@ fn build(
     let changes = Changes::all(n, moving);
     let perturbation = Perturbation::new(variation, &changes, |_, _| None);
     let response = response(variation, &perturbation)?;
-    let Parts { state, input_states, inputs } = perturbation.split(&response.vdot);
+    let ColumnBlocks { state, input_states, inputs } = perturbation.split(&response.vdot);
     let mut a = Matrix::zeros(moving + n, moving + n);
     let rates = &changes.v - variation.bracket_with(&changes.q);
     a.rows_mut(0, moving).copy_from(&rates.rows(0, moving));

@@ -3,7 +3,7 @@
 use super::{PROJECTED, build};
 use crate::error::{Error, Result};
 use crate::formulation::{self, mean_compliance};
-use crate::linearize::entry::Entry;
+use crate::linearize::entry::LinearizationMethod;
 use crate::linearize::variation::at_state;
 use crate::linearize::{Matrix, Perturbation, Response, Variation};
 use crate::method_spec::{MethodSpec, OptionDoc};
@@ -25,7 +25,7 @@ const KIND: OptionDoc = OptionDoc {
 /// lambda: M dv' = -[K + s G^T (c0 G + c1 Gd)] dq - [C + s c1 G^T G] dv. Physical eigenvalues are off by O(1/penalty)
 /// until rounding, of order penalty eps, takes over. Spurious ones are those of Baumgarte (inertial) or
 /// +-i sqrt(s c0 eig(G M^-1 G^T)) (elastic).
-pub const PENALTY: Entry = Entry {
+pub const PENALTY: LinearizationMethod = LinearizationMethod {
     name: "penalty",
     options: &[formulation::PENALTY, formulation::OMEGA, formulation::XI, KIND, PROJECTED],
     build: |variation, request| {
@@ -49,7 +49,7 @@ pub const PENALTY: Entry = Entry {
 /// ```
 ///
 /// Physical eigenvalues are off by O(penalty^-N).
-pub const AUGMENTED_LAGRANGIAN: Entry = Entry {
+pub const AUGMENTED_LAGRANGIAN: LinearizationMethod = LinearizationMethod {
     name: "augmented_lagrangian",
     options: &[
         formulation::PENALTY,

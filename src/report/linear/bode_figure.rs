@@ -17,15 +17,15 @@ pub enum Magnitude {
 const LINES: usize = 7;
 
 /// Responses to one input in one unit.
-type Group<'a> = Vec<&'a Response>;
+type ResponseGroup<'a> = Vec<&'a Response>;
 
 /// Returns the responses by input and unit, those that are zero left out.
-fn groups(responses: &[Response]) -> Vec<Group<'_>> {
+fn groups(responses: &[Response]) -> Vec<ResponseGroup<'_>> {
     grouped(responses.iter().filter(|response| !response.is_zero()), |response| (&response.input, response.unit()))
 }
 
 /// True for each group that is drawn: the first of each input, then the second of each ...
-fn drawn(groups: &[Group]) -> Vec<bool> {
+fn drawn(groups: &[ResponseGroup]) -> Vec<bool> {
     let rank = |place: usize| groups[..place].iter().filter(|group| group[0].input == groups[place][0].input).count();
     let mut order: Vec<usize> = (0..groups.len()).collect();
     order.sort_by_key(|&place| rank(place));
@@ -67,7 +67,12 @@ pub fn bode_figure(title: &str, frequencies: &[f64], responses: &[Response], mag
 }
 
 /// Returns the panels of magnitudes and of phases; the first has the names.
-fn panels(group: &Group, frequencies: &[f64], magnitude: Magnitude, name: impl Fn(&Response) -> String) -> [Panel; 2] {
+fn panels(
+    group: &ResponseGroup,
+    frequencies: &[f64],
+    magnitude: Magnitude,
+    name: impl Fn(&Response) -> String,
+) -> [Panel; 2] {
     let lines = |y: AxisSpec, name: &dyn Fn(&Response) -> String, values: &dyn Fn(&Response) -> Vec<f64>| {
         let line = |response: &&Response| {
             let points = frequencies.iter().copied().zip(values(response)).collect();

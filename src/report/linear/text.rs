@@ -5,7 +5,7 @@ use super::notes::notes;
 use crate::error::{short, significant};
 use crate::linearize::{Comparison, Kind, LinearModel, LinearizationPoint, Pair, pairs};
 use crate::report::table::count;
-use crate::report::tables::Column;
+use crate::report::tables::TableColumn;
 use crate::report::{Answer, Table};
 use serde::Serialize;
 use serde_json::json;
@@ -198,7 +198,7 @@ impl Answer for MethodsAnswer {
 
 /// Returns one line for each method, the reference first.
 pub fn comparison_text(rows: &[Comparison], is_equilibrium: bool) -> String {
-    let columns: [Column<Comparison>; 11] = [
+    let columns: [TableColumn<Comparison>; 11] = [
         ("method", |row| row.method.clone()),
         ("chart", |row| row.chart.clone()),
         ("against first", |row| row.error.map_or("-".to_string(), |error| format!("{error:.1e}"))),

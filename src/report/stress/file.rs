@@ -3,10 +3,10 @@
 use super::figure::stress_figure;
 use super::words::{gain_table, sentences};
 use crate::error::Result;
-use crate::report::tables::{Column, by_columns, optional};
+use crate::report::tables::{TableColumn, by_columns, optional};
 use crate::report::{Answer, Folder, cell as full};
 use crate::simulate::Method;
-use crate::study::stress::{Axis, AxisPlace, Cell, Map, Stressed, Verdict};
+use crate::study::stress::{Axis, AxisPlace, Cell, Map, MethodVerdict, Stressed};
 use serde::Serialize;
 use serde_json::{Value, json};
 
@@ -143,7 +143,7 @@ impl MapCell<'_> {
     }
 }
 
-fn columns<'a>() -> [Column<MapCell<'a>>; 26] {
+fn columns<'a>() -> [TableColumn<MapCell<'a>>; 26] {
     [
         ("scene", |at| at.scene.to_string()),
         ("map", |at| at.map.name.clone()),
@@ -189,7 +189,7 @@ fn stress_page(
     let mut page = format!("# Extremes\n\n{LEGEND}\n");
     page += "\n| scene | map | method | cells | completed | right | others |\n|---|---|---|---|---|---|---|\n";
     for (scene, stressed) in each(scenes) {
-        for Verdict { method, cells, completed, held, others, .. } in stressed.verdicts() {
+        for MethodVerdict { method, cells, completed, held, others, .. } in stressed.verdicts() {
             let others: Vec<String> = others.iter().map(|(status, n)| format!("{n} {}", status.word())).collect();
             let name = &stressed.map.name;
             let others = others.join(", ");

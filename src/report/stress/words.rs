@@ -4,7 +4,7 @@ use crate::error::{short, two_digits};
 use crate::math::bounds;
 use crate::report::Table;
 use crate::study::stress::{
-    Axis, Best, Bound, GainVerdict, Level, Reason, Side, Status, StepVerdict, Stressed, Verdict,
+    Axis, AxisSide, Best, Bound, GainVerdict, Level, MethodVerdict, Reason, Status, StepVerdict, Stressed,
 };
 use crate::tolerances::WRONG_MOTION;
 
@@ -172,8 +172,8 @@ fn what(level: &Level) -> String {
 }
 
 /// Returns the number of completed cells, their range, and the place and reason of the others.
-fn general(stressed: &Stressed, verdict: &Verdict) -> String {
-    let Verdict { method, cells, completed, others, range, bounds, reasons, .. } = verdict;
+fn general(stressed: &Stressed, verdict: &MethodVerdict) -> String {
+    let MethodVerdict { method, cells, completed, others, range, bounds, reasons, .. } = verdict;
     let name = if method.is_empty() { String::new() } else { format!("{method}: ") };
     if others == &[(Status::LeftOut, *cells)] {
         return format!("{name}nothing is known: the budget left out all {cells} cells.");
@@ -200,8 +200,8 @@ fn general(stressed: &Stressed, verdict: &Verdict) -> String {
 }
 
 /// Returns the errors of the completed cells.
-fn judged(verdict: &Verdict) -> String {
-    let Verdict { completed, held, off, errors, .. } = verdict;
+fn judged(verdict: &MethodVerdict) -> String {
+    let MethodVerdict { completed, held, off, errors, .. } = verdict;
     let Some([low, high]) = errors else {
         return if *completed > 0 { "; how far off they are is not known".to_string() } else { String::new() };
     };
@@ -220,8 +220,8 @@ fn place(stressed: &Stressed, bound: &Bound) -> String {
     let value = with_unit(axis, &short(bound.value));
     let axis = bound.axis.replace('_', " ");
     match bound.side {
-        Side::From => format!("from {axis} {value} on"),
-        Side::UpTo => format!("up to {axis} {value}"),
+        AxisSide::From => format!("from {axis} {value} on"),
+        AxisSide::UpTo => format!("up to {axis} {value}"),
     }
 }
 

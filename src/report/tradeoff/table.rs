@@ -2,11 +2,11 @@
 
 use crate::formulation::Statistics;
 use crate::report::cell as number;
-use crate::report::tables::{Column, optional};
+use crate::report::tables::{TableColumn, optional};
 use crate::study::work_precision::{Cell, Outcome};
 
 /// A row for each run; empty cells where it has no value.
-pub const COLUMNS: [Column<Cell>; 26] = [
+pub const COLUMNS: [TableColumn<Cell>; 26] = [
     ("formulation", |cell| cell.method.formulation.to_string()),
     ("integrator", |cell| cell.method.integrator.to_string()),
     ("projection", |cell| cell.method.projection.to_string()),

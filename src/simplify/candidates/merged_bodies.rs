@@ -7,7 +7,7 @@ use crate::error::percent;
 use crate::math::array::{Each, from_fn};
 use crate::math::expression::Parameters;
 use crate::scene::document::{carrier, elements, find_mut, number as written, pair, remove, text, value};
-use crate::simplify::{Candidate, Facts, Placed, Proposal, Relative};
+use crate::simplify::{Candidate, Facts, PlacedMarker, Proposal, Relative};
 use serde_json::{Value, json};
 
 /// Two rigid bodies that a joint connects become one, as they are to each other at the start: joints between the two
@@ -50,7 +50,7 @@ struct Merged {
     /// The second, as it is in the full model.
     second: Value,
     /// Place of the second in the frame of the first.
-    place: Placed,
+    place: PlacedMarker,
     /// Markers of the second.
     markers: Vec<Absorbed>,
     dimension: usize,
@@ -148,7 +148,12 @@ pub fn packed(inertia: &Value) -> Option<[Value; 6]> {
 }
 
 /// A placement in the axes of another and from its origin.
-fn seen(base: &Placed, place: &Placed) -> Placed {
+fn seen(base: &PlacedMarker, place: &PlacedMarker) -> PlacedMarker {
     let local = |vector: [f64; 3]| base.axes.each(|axis| dot(&axis, &vector));
-    Placed { r: local(sub(&place.r, &base.r)), axes: place.axes.map(local), turn: place.turn - base.turn, ..*place }
+    PlacedMarker {
+        r: local(sub(&place.r, &base.r)),
+        axes: place.axes.map(local),
+        turn: place.turn - base.turn,
+        ..*place
+    }
 }

@@ -41,9 +41,9 @@ fn proposal(facts: &Facts, subject: String, what: String, edit: Edit) -> Option<
     Some(Proposal { subject, what, why, effect, edit })
 }
 
-type Change = (String, String, Edit);
+type ProposedEdit = (String, String, Edit);
 
-fn undamped(list: &'static str, element: &Value) -> Option<Change> {
+fn undamped(list: &'static str, element: &Value) -> Option<ProposedEdit> {
     element.get("damping")?;
     let name = text(element, "name").to_string();
     let subject = name.clone();
@@ -54,7 +54,7 @@ fn undamped(list: &'static str, element: &Value) -> Option<Change> {
     Some((subject, what, Box::new(edit)))
 }
 
-fn gravity() -> Change {
+fn gravity() -> ProposedEdit {
     let edit = |scene: &mut Value| take(scene, "gravity").map(|_| ()).ok_or("no gravity".to_string());
     ("gravity".to_string(), "gravity is left out".to_string(), Box::new(edit))
 }

@@ -3,7 +3,7 @@
 use crate::body::{cross, dot, norm, unit};
 use crate::math::array::{Each, from_fn};
 use crate::scene::document::{change_names, elements, text};
-use crate::simplify::{Facts, Placed};
+use crate::simplify::{Facts, PlacedMarker};
 use crate::tolerances::SAME;
 use serde_json::{Value, json};
 
@@ -58,7 +58,7 @@ impl Plane {
 
     /// Direction in the world of the planar x axis of a marker: its x axis where its z axis is along the normal, else
     /// that.
-    pub fn marker(&self, place: &Placed) -> Option<Vector> {
+    pub fn marker(&self, place: &PlacedMarker) -> Option<Vector> {
         let [x, _, z] = place.axes;
         match self.along(&z) {
             Some(_) => Some(x),
@@ -73,12 +73,12 @@ impl Plane {
     }
 
     /// The axes of the plane in those of the ground or of a body that is at `place`.
-    pub fn seen_from(&self, name: &str, place: &Placed) -> [Vector; 3] {
+    pub fn seen_from(&self, name: &str, place: &PlacedMarker) -> [Vector; 3] {
         if name == "ground" { self.axes } else { self.seen_by(place) }
     }
 
     /// The axes of the plane as a body at `place` sees them: its own x axis first, if that lies in the plane.
-    fn seen_by(&self, place: &Placed) -> [Vector; 3] {
+    fn seen_by(&self, place: &PlacedMarker) -> [Vector; 3] {
         basis(exact(place.axes.each(|axis| dot(&axis, self.normal()))))
     }
 
@@ -117,7 +117,7 @@ impl Plane {
 }
 
 /// A direction of a body in the world.
-pub fn world(frame: &Placed, direction: &Vector) -> Vector {
+pub fn world(frame: &PlacedMarker, direction: &Vector) -> Vector {
     from_fn(|i| (0..3).map(|k| direction[k] * frame.axes[k][i]).sum())
 }
 

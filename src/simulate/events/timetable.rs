@@ -83,7 +83,7 @@ impl<'a> Timetable<'a> {
         let near = thresholds.nearest(x.x).filter(|&(_, threshold)| (x.x - threshold).abs() <= margin(threshold));
         let Some((k, threshold)) = near else { return thresholds.piece(x.x).unwrap_or(0) };
         let range = Range { low: threshold, high: threshold }.widened(2.0 * margin(threshold));
-        let left = Search { argument, range, regime }.first_exit(t, self.end, &mut LOOKS_FOR_CHANGE.clone());
+        let left = ThresholdSearch { argument, range, regime }.first_exit(t, self.end, &mut LOOKS_FOR_CHANGE.clone());
         let side = left.map_or(0, |left| if argument.at(left, regime) > threshold { 1 } else { -1 });
         (2 * k as Piece + 1).wrapping_add_signed(side)
     }
@@ -94,7 +94,7 @@ impl<'a> Timetable<'a> {
             let Some(argument) = &switch.of_time else { continue };
             let Some(range) = Range::of(pieces[number], &switch.thresholds) else { continue };
             let exit = |range: Range, end: f64| {
-                let search = Search { argument, range, regime: Regime::held(pieces) };
+                let search = ThresholdSearch { argument, range, regime: Regime::held(pieces) };
                 search.first_exit(t, end, &mut LOOKS_FOR_CHANGE.clone())
             };
             // A function that comes to rest on a threshold crosses it many times within round-off.
@@ -125,13 +125,13 @@ const SAMPLES: usize = 64;
 const DOUBLINGS: i32 = 20;
 
 /// Search for the time at which an argument leaves a range, with the pieces of a regime.
-struct Search<'s> {
+struct ThresholdSearch<'s> {
     argument: &'s TimeFunction,
     range: Range,
     regime: Regime<'s>,
 }
 
-impl Search<'_> {
+impl ThresholdSearch<'_> {
     /// The first time in (from, to] at which the argument is out of the range: intervals are halved until their
     /// enclosures prove that it stays inside, or that it is monotone.
     fn first_exit(&self, from: f64, to: f64, looks: &mut usize) -> Option<f64> {

@@ -8,7 +8,7 @@ use crate::method_spec::MethodSpec;
 
 /// One change that a cell of a map makes.
 #[derive(Clone)]
-pub enum Change {
+pub enum CellChange {
     /// A stress parameter and its value.
     StressParameter(&'static StressParameter, f64),
     /// A parameter of the scene.
@@ -21,7 +21,7 @@ pub enum Change {
     OwnGains,
 }
 
-impl Change {
+impl CellChange {
     /// Makes the change.
     ///
     /// # Errors
@@ -30,17 +30,17 @@ impl Change {
         let typical_step = case.typical.step;
         let method = &mut case.method;
         match self {
-            Change::StressParameter(parameter, value) => return (parameter.apply)(case, *value),
-            Change::Parameter(name, value) => case.set.push((name.clone(), *value)),
-            Change::Integrator(integrator) => {
+            CellChange::StressParameter(parameter, value) => return (parameter.apply)(case, *value),
+            CellChange::Parameter(name, value) => case.set.push((name.clone(), *value)),
+            CellChange::Integrator(integrator) => {
                 let is_fixed = find(integrator)?.steps == Steps::Fixed;
                 method.step = if is_fixed { method.step.or(Some(typical_step)) } else { None };
                 method.integrator = integrator.clone();
             }
-            Change::Stabilization(formulation, projection) => {
+            CellChange::Stabilization(formulation, projection) => {
                 (method.formulation, method.projection) = (formulation.clone(), projection.clone());
             }
-            Change::OwnGains => {
+            CellChange::OwnGains => {
                 (method.formulation, method.projection) =
                     (baumgarte(1.0 / method.step.unwrap_or(typical_step)), MethodSpec::named("none"));
             }
@@ -51,8 +51,8 @@ impl Change {
     /// True if the exact motion stays the same.
     pub fn keeps_motion(&self) -> bool {
         match self {
-            Change::StressParameter(parameter, _) => parameter.keeps_motion,
-            Change::Parameter(..) => false,
+            CellChange::StressParameter(parameter, _) => parameter.keeps_motion,
+            CellChange::Parameter(..) => false,
             _ => true,
         }
     }

@@ -1,7 +1,7 @@
 //! Maps of two parameters, and the methods that are compared on them.
 
 use super::cell::Quantity;
-use super::change::Change;
+use super::change::CellChange;
 use super::parameters::{StressParameter, find, registry};
 use super::subject::Subject;
 use crate::error::{Error, Result, short, suggest};
@@ -15,7 +15,7 @@ pub struct AxisPlace {
     /// Value; none for an entry that is not a number, such as another method.
     pub value: Option<f64>,
     /// Changes that it makes to the scene or the method.
-    pub changes: Vec<Change>,
+    pub changes: Vec<CellChange>,
 }
 
 /// The parameter varied along one side of a map.
@@ -53,11 +53,15 @@ pub struct Map {
 impl AxisPlace {
     /// An entry with a value of a stress parameter.
     pub fn of(parameter: &'static StressParameter, value: f64) -> Self {
-        AxisPlace { label: short(value), value: Some(value), changes: vec![Change::StressParameter(parameter, value)] }
+        AxisPlace {
+            label: short(value),
+            value: Some(value),
+            changes: vec![CellChange::StressParameter(parameter, value)],
+        }
     }
 
     /// An entry without a value.
-    pub fn named(label: &str, changes: Vec<Change>) -> Self {
+    pub fn named(label: &str, changes: Vec<CellChange>) -> Self {
         AxisPlace { label: label.to_string(), value: None, changes }
     }
 }
@@ -111,7 +115,7 @@ impl Axis {
         let entry = |value: f64| AxisPlace {
             label: short(value),
             value: Some(value),
-            changes: vec![Change::Parameter(name.clone(), value)],
+            changes: vec![CellChange::Parameter(name.clone(), value)],
         };
         Axis { name: name.clone(), unit: String::new(), entries: range.values().into_iter().map(entry).collect() }
     }
@@ -140,7 +144,7 @@ fn range(text: &str, is_log: bool) -> Result<Range> {
 
 impl AxisPlace {
     fn keeps_motion(&self) -> bool {
-        self.changes.iter().all(Change::keeps_motion)
+        self.changes.iter().all(CellChange::keeps_motion)
     }
 
     /// Returns the distance of an entry from the middle of its list, 0, to its ends, 1; an entry without a value counts
@@ -153,7 +157,7 @@ impl AxisPlace {
 
 impl Map {
     /// Returns the changes of the cell of a method, row and column, in this order: method, x, y.
-    pub(super) fn changes(&self, cell: [usize; 3]) -> impl Iterator<Item = &Change> {
+    pub(super) fn changes(&self, cell: [usize; 3]) -> impl Iterator<Item = &CellChange> {
         let [panel, row, column] = cell;
         let entries = [&self.methods[panel], &self.x.entries[column], &self.y.entries[row]];
         entries.into_iter().flat_map(|entry| &entry.changes)

@@ -1,7 +1,7 @@
 //! The maps offered for a scene.
 
 use super::cell::Quantity;
-use super::change::Change;
+use super::change::CellChange;
 use super::map::{Axis, AxisPlace, Map};
 use super::parameters::find;
 use super::subject::Subject;
@@ -150,10 +150,10 @@ impl MapEntry {
 fn beside_gains(map: &mut Map) {
     let row = |label: &str, projection: &str| {
         let projection = MethodSpec::parse(projection).unwrap_or_default();
-        AxisPlace::named(label, vec![Change::Stabilization(MethodSpec::named("index1"), projection)])
+        AxisPlace::named(label, vec![CellChange::Stabilization(MethodSpec::named("index1"), projection)])
     };
     let above = [
-        AxisPlace::named("(2/h, 1/h²)", vec![Change::OwnGains]),
+        AxisPlace::named("(2/h, 1/h²)", vec![CellChange::OwnGains]),
         row("manifold", "manifold"),
         row("manifold × 2", "manifold:sweeps=2"),
     ];
@@ -176,7 +176,7 @@ fn by_method(map: &mut Map) {
 }
 
 fn fixed() -> Vec<AxisPlace> {
-    let integrator = |name: &str| AxisPlace::named(name, vec![Change::Integrator(MethodSpec::named(name))]);
+    let integrator = |name: &str| AxisPlace::named(name, vec![CellChange::Integrator(MethodSpec::named(name))]);
     vec![integrator("rk4"), integrator("heun")]
 }
 
@@ -197,5 +197,8 @@ fn method(formulation: &str, integrator: &str, projection: &str) -> AxisPlace {
     let formulation = MethodSpec::named(formulation);
     let integrator = MethodSpec::named(integrator);
     let projection = MethodSpec::named(projection);
-    AxisPlace::named(&label, vec![Change::Integrator(integrator), Change::Stabilization(formulation, projection)])
+    AxisPlace::named(
+        &label,
+        vec![CellChange::Integrator(integrator), CellChange::Stabilization(formulation, projection)],
+    )
 }

@@ -2,7 +2,7 @@
 //! speeds, sizes or times.
 //!
 //! A [`Map`] is two axes and the methods that are compared on them. Each of its cells is one simulation of a [`Case`],
-//! the scene with the [`Change`]s of its entries, run under a deadline. A failure is a result, a skipped cell is none:
+//! the scene with the [`CellChange`]s of its entries, run under a deadline. A failure is a result, a skipped cell is none:
 //! see [`Status`]. What completes is compared with an accurate run of the same motion.
 //!
 //! To add a stress parameter: an entry in [`registry`].
@@ -25,7 +25,7 @@ pub use cell::Cell;
 #[doc(hidden)]
 pub use cell::{Quantity, Status};
 #[doc(hidden)]
-pub use change::Change;
+pub use change::CellChange;
 #[doc(hidden)]
 pub use gains::{Best, Farther, GainVerdict, Level, Steady, StepVerdict};
 pub use map::Map;
@@ -41,4 +41,4 @@ pub use subject::Subject;
 #[doc(hidden)]
 pub use subject::{Case, Typical};
 #[doc(hidden)]
-pub use verdict::{Bound, Reason, Side, Verdict};
+pub use verdict::{AxisSide, Bound, MethodVerdict, Reason};

@@ -10,7 +10,7 @@ use crate::tolerances;
 use std::time::Duration;
 
 /// Result of the search for a reference.
-pub(super) enum Search {
+pub(super) enum ReferenceSearch {
     /// It takes more time; the part of the motion completed.
     Pending(f64),
     /// The watched quantities along an accurate solution, and its method.
@@ -22,7 +22,7 @@ pub(super) enum Search {
 /// An explicit and an implicit method, one of which suits.
 const METHODS: [[&str; 3]; 2] = [["index1", "dop853", "manifold"], ["ggl", "radau_iia", "none"]];
 
-impl Search {
+impl ReferenceSearch {
     /// Simulates the motion of the case, by the first method that completes it within the CPU time allowed to each.
     pub fn run(subject: &Subject, case: &Case, cpu: Duration, budget: &Budget) -> Self {
         let mut longest = None;
@@ -34,20 +34,22 @@ impl Search {
             let search = subject.with(&case, |motion| {
                 let run = motion.run(&case.method, Limit { cpu, wall: budget.left() })?;
                 Ok(match &run.failure {
-                    None => Search::Found(Box::new((ErrorMetric::of(&motion.watched, &run), case.method.clone()))),
-                    Some(failure) if run.is_too_slow => {
-                        Search::Pending((failure.t - motion.span.start) / case.duration)
+                    None => {
+                        ReferenceSearch::Found(Box::new((ErrorMetric::of(&motion.watched, &run), case.method.clone())))
                     }
-                    Some(_) => Search::Hopeless,
+                    Some(failure) if run.is_too_slow => {
+                        ReferenceSearch::Pending((failure.t - motion.span.start) / case.duration)
+                    }
+                    Some(_) => ReferenceSearch::Hopeless,
                 })
             });
             match search {
-                Ok(Search::Pending(part)) => longest = Some(part.max(longest.unwrap_or(0.0))),
-                Ok(Search::Hopeless) | Err(_) => {}
+                Ok(ReferenceSearch::Pending(part)) => longest = Some(part.max(longest.unwrap_or(0.0))),
+                Ok(ReferenceSearch::Hopeless) | Err(_) => {}
                 Ok(found) => return found,
             }
         }
-        longest.map_or(Search::Hopeless, Search::Pending)
+        longest.map_or(ReferenceSearch::Hopeless, ReferenceSearch::Pending)
     }
 }
 

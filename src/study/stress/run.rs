@@ -2,7 +2,7 @@
 
 use super::cell::{Cell, Status};
 use super::map::Map;
-use super::reference::{self, Search};
+use super::reference::{self, ReferenceSearch};
 use super::simulation::{blank, run};
 use super::subject::{Case, Subject};
 use crate::clock::Stopwatch;
@@ -78,7 +78,7 @@ struct Work<'a> {
     limit: Duration,
     cells: Vec<Slot>,
     /// Indices of one of its cells, and the reference.
-    motions: Vec<([usize; 3], Mutex<Search>)>,
+    motions: Vec<([usize; 3], Mutex<ReferenceSearch>)>,
     queues: Mutex<Queues<What>>,
 }
 
@@ -113,7 +113,7 @@ impl<'a> Work<'a> {
             let motion = known.iter().position(|other| *other == key).unwrap_or_else(|| {
                 queues.add("", Job::new(rank, What::Motion(known.len())));
                 known.push(key);
-                motions.push((at, Mutex::new(Search::Pending(0.0))));
+                motions.push((at, Mutex::new(ReferenceSearch::Pending(0.0))));
                 known.len() - 1
             });
             let blank = blank(subject, map, at);
@@ -146,15 +146,15 @@ impl<'a> Work<'a> {
         match job.what {
             What::Motion(index) => {
                 let (at, found) = &self.motions[index];
-                let search = self.case(*at).map_or(Search::Hopeless, |case| {
+                let search = self.case(*at).map_or(ReferenceSearch::Hopeless, |case| {
                     let cpu = if is_last { share.saturating_mul(REFERENCE) } else { share };
-                    Search::run(self.subject, &case, cpu, budget)
+                    ReferenceSearch::run(self.subject, &case, cpu, budget)
                 });
                 if (self.subject.is_stopped)() {
                     return None;
                 }
                 let cut = match search {
-                    Search::Pending(part) if !is_last => Some(part),
+                    ReferenceSearch::Pending(part) if !is_last => Some(part),
                     _ => None,
                 };
                 *locked(found) = search;
@@ -197,7 +197,7 @@ impl<'a> Work<'a> {
     fn confirm(&self) -> Option<SecondOpinion> {
         let (at, search) = self.motions.first()?;
         let search = locked(search);
-        let Search::Found(found) = &*search else { return None };
+        let ReferenceSearch::Found(found) = &*search else { return None };
         let (reference, method) = &**found;
         let case = Case { method: method.clone(), ..self.case(*at)? };
         reference::confirmed(self.subject, &case, reference, self.limit.saturating_mul(REFERENCE))
@@ -205,8 +205,8 @@ impl<'a> Work<'a> {
 
     /// Returns the names of the quantities, and the cells with their errors.
     fn finish(self) -> (Vec<String>, Vec<Cell>) {
-        let found = |(_, search): ([usize; 3], Mutex<Search>)| match into_inner(search) {
-            Search::Found(found) => Some(found.0),
+        let found = |(_, search): ([usize; 3], Mutex<ReferenceSearch>)| match into_inner(search) {
+            ReferenceSearch::Found(found) => Some(found.0),
             _ => None,
         };
         let references: Vec<Option<ErrorMetric>> = self.motions.into_iter().map(found).collect();

@@ -8,7 +8,7 @@ use serde::Serialize;
 
 /// Summary of one method on a map.
 #[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct Verdict {
+pub struct MethodVerdict {
     /// Name of the method.
     pub method: String,
     /// Number of cells.
@@ -37,7 +37,7 @@ pub struct Bound {
     /// Name of the axis.
     pub axis: String,
     /// Side of the value.
-    pub side: Side,
+    pub side: AxisSide,
     /// Value that bounds them, which belongs to the side.
     pub value: f64,
 }
@@ -45,7 +45,7 @@ pub struct Bound {
 /// Side of a value on an axis.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
-pub enum Side {
+pub enum AxisSide {
     /// The value and larger ones.
     From,
     /// The value and smaller ones.
@@ -70,18 +70,18 @@ pub struct Reason {
 impl Stressed {
     /// Returns the summary of each method.
     #[doc(hidden)]
-    pub fn verdicts(&self) -> Vec<Verdict> {
+    pub fn verdicts(&self) -> Vec<MethodVerdict> {
         (0..self.map.methods.len()).map(|method| self.verdict(method)).collect()
     }
 
-    fn verdict(&self, method: usize) -> Verdict {
+    fn verdict(&self, method: usize) -> MethodVerdict {
         let cells: Vec<&Cell> = self.cells.iter().filter(|cell| cell.panel == method).collect();
         let count = |status: Status| cells.iter().filter(|cell| cell.status == status).count();
         let statuses = [Status::Diverged, Status::Failed, Status::Refused, Status::TooSlow, Status::LeftOut];
         let completed = || cells.iter().filter(|cell| cell.status == Status::Completed);
         let judged = |holds: bool| completed().filter(|cell| cell.holds == Some(holds)).count();
         let bounds = [bound(&self.map.x, &cells, |cell| cell.column), bound(&self.map.y, &cells, |cell| cell.row)];
-        Verdict {
+        MethodVerdict {
             method: self.map.methods[method].label.clone(),
             cells: cells.len(),
             completed: count(Status::Completed),
@@ -137,8 +137,8 @@ fn bound(axis: &Axis, cells: &[&Cell], place: impl Fn(&Cell) -> usize) -> Option
     let is_one_piece = last - first + 1 == bad.len();
     let (side, at) = match (first, last + 1 == values.len()) {
         (0, true) => return None,
-        (_, true) => (Side::From, first),
-        (0, false) => (Side::UpTo, last),
+        (_, true) => (AxisSide::From, first),
+        (0, false) => (AxisSide::UpTo, last),
         _ => return None,
     };
     is_one_piece.then(|| Bound { axis: axis.name.clone(), side, value: values[at] })

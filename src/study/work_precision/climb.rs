@@ -37,7 +37,7 @@ const WAITED: [f64; 2] = [0.45, 0.8];
 const QUICK: f64 = 3.0;
 
 /// Completed runs of one method, from loose to tight.
-pub struct Line {
+pub struct MethodRuns {
     triple: Triple,
     pub runs: Vec<RunSample>,
     /// Index of the next one in the sequence.
@@ -50,8 +50,8 @@ pub struct Line {
 ///
 /// # Errors
 /// Bad input.
-pub fn climb(motion: &Motion, wanted: f64, budget: Duration) -> Result<Vec<Line>> {
-    let mut lines: Vec<Line> = FAMILIES.into_iter().map(Line::new).collect();
+pub fn climb(motion: &Motion, wanted: f64, budget: Duration) -> Result<Vec<MethodRuns>> {
+    let mut lines: Vec<MethodRuns> = FAMILIES.into_iter().map(MethodRuns::new).collect();
     let budget = Budget::begin(budget);
     for part in PARTS.into_iter().chain([LAST]) {
         let is_last = part == LAST;
@@ -62,7 +62,7 @@ pub fn climb(motion: &Motion, wanted: f64, budget: Duration) -> Result<Vec<Line>
         let limit = Limit { cpu: budget.all.mul_f64(part), wall: budget.left_of(WAITED[usize::from(is_last)]) };
         let times = lines.iter().map(|line| line.forecast(motion.span)).filter(|time| *time > 0.0);
         let longest = if is_last { QUICK * times.fold(f64::INFINITY, f64::min) } else { f64::INFINITY };
-        let up = |line: &mut Line| -> Result<()> {
+        let up = |line: &mut MethodRuns| -> Result<()> {
             if line.forecast(motion.span) > longest { Ok(()) } else { line.climb(motion, limit) }
         };
         // All at once: their times do not depend on how many cores there are.
@@ -71,11 +71,11 @@ pub fn climb(motion: &Motion, wanted: f64, budget: Duration) -> Result<Vec<Line>
     Ok(lines)
 }
 
-impl Line {
+impl MethodRuns {
     fn new(names: [&str; 3]) -> Self {
         let [formulation, integrator, projection] = names.map(MethodSpec::named);
         let triple = Triple { formulation, integrator, projection };
-        Line { triple, runs: Vec::new(), next: 0, failure: None }
+        MethodRuns { triple, runs: Vec::new(), next: 0, failure: None }
     }
 
     /// Makes the next runs that can be expected to fit into a limit for all of them.
@@ -128,7 +128,7 @@ pub struct Checked<'l> {
 
 /// Compares the tightest run, at equal tolerances that of the first method, with the run that agrees best: two methods
 /// do not agree in wrong digits by chance. Its own looser run is used where no other is as tight as that.
-pub fn check<'l>(lines: &'l [Line], watched: &Watched) -> Option<Checked<'l>> {
+pub fn check<'l>(lines: &'l [MethodRuns], watched: &Watched) -> Option<Checked<'l>> {
     let own = lines.iter().min_by(|a, b| tightest(a).total_cmp(&tightest(b)))?;
     let (best, rest) = own.runs.split_last()?;
     let others = lines.iter().filter_map(|line| line.runs.last()).filter(|run| !same(run, best));
@@ -144,7 +144,7 @@ pub fn check<'l>(lines: &'l [Line], watched: &Watched) -> Option<Checked<'l>> {
 
 /// The difference of the nearest run of diffsol from the values of `checked`; none where diffsol completed none, or is
 /// the best itself.
-pub fn confirmed(lines: &[Line], checked: &Checked) -> Option<SecondOpinion> {
+pub fn confirmed(lines: &[MethodRuns], checked: &Checked) -> Option<SecondOpinion> {
     let is_confirming = |run: &RunSample| {
         let Method { formulation, integrator, .. } = &run.method;
         second_opinion::METHODS.iter().any(|names| names[..2] == [formulation.name.as_str(), integrator.name.as_str()])
@@ -162,13 +162,13 @@ pub fn same(a: &RunSample, b: &RunSample) -> bool {
     a.method.triple() == b.method.triple()
 }
 
-fn tightest(line: &Line) -> f64 {
+fn tightest(line: &MethodRuns) -> f64 {
     line.runs.last().map_or(f64::INFINITY, |run| run.method.rtol)
 }
 
 /// Returns the failure where no method completed, with the time that the quickest needs, extrapolated from the part it
 /// completed.
-pub fn nothing(lines: &[Line], span: Span, budget: Duration) -> Failure {
+pub fn nothing(lines: &[MethodRuns], span: Span, budget: Duration) -> Failure {
     let stopped = lines.iter().filter_map(|line| line.failure.as_ref());
     let forecast = |run: &RunSample| run.whole(span).filter(|seconds| *seconds > 0.0);
     let forecasts = stopped.clone().filter_map(|run| Some((&run.method, forecast(run)?)));

@@ -1,6 +1,6 @@
 //! The reference of accuracy.
 
-use super::climb::{Checked, Line, check, climb, confirmed, nothing, same};
+use super::climb::{Checked, MethodRuns, check, climb, confirmed, nothing, same};
 use super::given::Given;
 use crate::error::Result;
 use crate::integrator;
@@ -83,7 +83,7 @@ impl Reference {
 }
 
 /// Takes the loosest runs of the first two families; where one of them has none, that of the other.
-fn pace(lines: &[Line], span: Span) -> Pace {
+fn pace(lines: &[MethodRuns], span: Span) -> Pace {
     let duration = span.end - span.start;
     // The mean step without the effect of the tolerance: h rtol^(-1/p).
     let pace = |run: &RunSample| {
