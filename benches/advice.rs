@@ -19,9 +19,9 @@ use holonom::formulation::Statistics;
 use holonom::linearize::amplified;
 use holonom::method_spec::MethodSpec;
 use holonom::prepared::{Model, Overrides};
-use holonom::report::Table;
+use holonom::report::TextTable;
 use holonom::simulate::{Leg, Method, Observation, Sink, Span, Stop, atol_of, simulate_automatic};
-use holonom::study::work_precision::{Cell, Filter, Outcome, Plan, Runner, Triple, WorkPrecision, grid};
+use holonom::study::work_precision::{Cell, Filter, Outcome, Runner, TradeoffPlan, Triple, WorkPrecision, grid};
 use holonom::study::{Motion, Watched};
 use holonom::system::{MechanicalSystem, Scratch};
 use std::path::{Path, PathBuf};
@@ -100,7 +100,8 @@ fn measure(path: &Path) -> Result<Measured> {
     let within = |budget: Duration| -> Result<WorkPrecision> {
         let motion = Motion::of(&prepared, span, watched.clone(), &|| false);
         let triples = triples.clone();
-        let plan = Plan { triples, budget, repeats: 3, rows, digits: DIGITS[1], is_exhaustive: false, given: None };
+        let plan =
+            TradeoffPlan { triples, budget, repeats: 3, rows, digits: DIGITS[1], is_exhaustive: false, given: None };
         let mut result = WorkPrecision::fresh(&prepared.name, span.start, span.end, rows);
         Runner::new(motion, &plan, |_, _| ()).run(&mut result)?;
         Ok(result)
@@ -308,10 +309,10 @@ fn main() {
     );
 }
 
-fn errors(all: &[Measured]) -> Table {
+fn errors(all: &[Measured]) -> TextTable {
     let headings =
         ["method", "rtol", "scenes", "median", "90 %", "largest", "amplifying", "median", "failed", "left out"];
-    let mut table = Table::new(&headings).words(1);
+    let mut table = TextTable::new(&headings).words(1);
     for (integrator, formulation, projection) in USUAL {
         for digits in DIGITS {
             let is_meant = |cell: &&Cell| {
@@ -356,9 +357,9 @@ fn errors(all: &[Measured]) -> Table {
     table
 }
 
-fn costs(all: &[Measured]) -> Table {
+fn costs(all: &[Measured]) -> TextTable {
     let headings = ["scene", "wall", "amplifies", "reference", "own", "none", "auto", "failed runs", "for 6 digits"];
-    let mut table = Table::new(&headings).words(1);
+    let mut table = TextTable::new(&headings).words(1);
     for scene in all {
         let number = |ratio: Option<f64>| ratio.map_or("-".to_string(), |ratio| format!("{ratio:.2}"));
         let three = |of: &dyn Fn(u32) -> Option<f64>| DIGITS.map(|digits| number(of(digits))).join(" ");

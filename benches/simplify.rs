@@ -8,7 +8,7 @@
 use holonom::clock::Stopwatch;
 use holonom::error::{Result, percent};
 use holonom::prepared::Overrides;
-use holonom::report::Table;
+use holonom::report::TextTable;
 use holonom::simplify::{ModelRun, Nearby, Simplification, SimplificationSettings, Source, registry, simplify};
 use std::path::{Path, PathBuf};
 use std::time::Duration;
@@ -93,7 +93,7 @@ fn main() {
         "in its runs",
         "left out",
     ];
-    let mut table = Table::left(&headings);
+    let mut table = TextTable::left(&headings);
     for path in scenes() {
         for within in WITHIN {
             match found(&path, within) {

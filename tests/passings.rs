@@ -3,7 +3,7 @@
 
 use crate::common::{adaptive, fixed, stepwise};
 use crate::scenes::{Ready, model, parse, shipped};
-use holonom::analysis::{Branch, Recorder, Singularity, dependent_nearby};
+use holonom::analysis::{Recorder, Singularity, SingularityBranch, dependent_nearby};
 use holonom::scene::generate::n_four_bar;
 use holonom::simulate::{Method, Span, simulate};
 
@@ -32,7 +32,7 @@ fn times_of_passages() {
             assert_eq!(found.count, if case == CASES[0] { 7 } else { 11 }, "{case}");
             assert!((found.passed[0].t - first).abs() < tolerance, "{case}: {}", found.passed[0].t);
             for (k, passing) in found.passed.iter().enumerate() {
-                assert!(passing.is_singular && passing.branch == Branch::Kept, "{case}: {passing:?}");
+                assert!(passing.is_singular && passing.branch == SingularityBranch::Kept, "{case}: {passing:?}");
                 assert_eq!((passing.rank, passing.regular_rank), (Some(4), 5), "{case}: {passing:?}");
                 assert_eq!(passing.joints, ["bearing", "crank_pin", "slider"]);
                 if case == CASES[0] {
@@ -141,7 +141,7 @@ fn nearly_singular_geometry_is_no_error() {
     let found = watched(&parse(&scene.to_string()), &adaptive("index1", "dop853", "manifold", 1e-9), 3.0);
     assert!(found.count > 1, "{found:?}");
     for passing in &found.passed {
-        assert!(!passing.is_singular && passing.branch == Branch::Kept, "{passing:?}");
+        assert!(!passing.is_singular && passing.branch == SingularityBranch::Kept, "{passing:?}");
         // The square of the rank indicator is 6 times the difference of the lengths, to first order in it.
         assert!((passing.rank_indicator / 6e-5_f64.sqrt() - 1.0).abs() < 1e-4, "{passing:?}");
     }

@@ -6,8 +6,8 @@ use holonom::clock::{self, Stopwatch, TICK};
 use holonom::method_spec::MethodSpec;
 use holonom::prepared::Overrides;
 use holonom::study::stress::{
-    Axis, AxisPlace, Cell, CellChange, Level, Limits, Map, Quantity, Status, StepVerdict, StressParameter, Stressed,
-    Subject, find, maps, pair, stress,
+    AxisPlace, Cell, CellChange, CellQuantity, GainRun, Limits, Map, MapAxis, Status, StepVerdict, StressParameter,
+    Stressed, Subject, find, maps, pair, stress,
 };
 use std::path::Path;
 use std::sync::Mutex;
@@ -51,11 +51,11 @@ fn the_verdict_on_baumgarte_in_numbers() {
         AxisPlace::named("", vec![CellChange::OwnGains]),
         row("index1", "manifold"),
     ];
-    let y = Axis { name: "method".into(), unit: String::new(), entries: rows };
-    let x = Axis::of(parameter("step"), vec![0.01, 0.005, 0.001]);
+    let y = MapAxis { name: "method".into(), unit: String::new(), entries: rows };
+    let x = MapAxis::of(parameter("step"), vec![0.01, 0.005, 0.001]);
     let integrator = |name: &str| AxisPlace::named(name, vec![CellChange::Integrator(MethodSpec::named(name))]);
     let methods = ["heun", "rk4"].map(integrator).to_vec();
-    let map = Map { methods, ..pair(&subject, x, y, Quantity::Velocity) };
+    let map = Map { methods, ..pair(&subject, x, y, CellQuantity::Velocity) };
     let stressed = stress(&subject, map, limits(200_000), &|| {});
     let expected: [(usize, usize, [f64; 3]); 5] = [
         (0, 0, [5.12e-1, 5.17e-2, 6.02e-4]),
@@ -66,7 +66,7 @@ fn the_verdict_on_baumgarte_in_numbers() {
     ];
     for (method, row, levels) in expected {
         for (column, level) in levels.into_iter().enumerate() {
-            let found = Quantity::Velocity.of(stressed.cell(method, row, column).unwrap()).unwrap();
+            let found = CellQuantity::Velocity.of(stressed.cell(method, row, column).unwrap()).unwrap();
             assert!((found / level - 1.0).abs() < 0.01, "{method} {row} {column}: {found:e}");
         }
     }
@@ -81,27 +81,28 @@ fn the_verdict_on_baumgarte_of_the_scene() {
     let subject = scene("robot_arm", Overrides::default());
     let mut map = named(&subject, "gain");
     let steps = vec![0.001, 0.002, 0.005, 0.01, 0.02, 0.05];
-    map.x = Axis::of(parameter("step"), steps);
+    map.x = MapAxis::of(parameter("step"), steps);
     let stressed = stress(&subject, map, limits(200_000), &|| {});
     let gains = stressed.gains();
-    let verdict = |method: &str, quantity: Quantity| {
+    let verdict = |method: &str, quantity: CellQuantity| {
         gains.iter().find(|verdict| verdict.method == method && verdict.quantity == quantity).unwrap()
     };
     // The best gain depends on the integrator, the level and the step.
-    let best = |method: &str, quantity: Quantity, step: usize| verdict(method, quantity).steps[step].best.unwrap().gain;
-    assert_ne!(best("rk4", Quantity::Velocity, 0), best("heun", Quantity::Velocity, 0));
-    assert_ne!(best("rk4", Quantity::Position, 0), best("rk4", Quantity::Velocity, 0));
-    assert!(best("rk4", Quantity::Position, 0) >= 2.0 * best("rk4", Quantity::Position, 4));
+    let best =
+        |method: &str, quantity: CellQuantity, step: usize| verdict(method, quantity).steps[step].best.unwrap().gain;
+    assert_ne!(best("rk4", CellQuantity::Velocity, 0), best("heun", CellQuantity::Velocity, 0));
+    assert_ne!(best("rk4", CellQuantity::Position, 0), best("rk4", CellQuantity::Velocity, 0));
+    assert!(best("rk4", CellQuantity::Position, 0) >= 2.0 * best("rk4", CellQuantity::Position, 4));
     for verdict in &gains {
         for step in verdict.steps.iter().filter(|step| step.none.drift.is_some()) {
             let [best, twice] = [step.best.unwrap().value, step.manifold_twice.drift.unwrap()];
             assert!(best > 1e3 * twice, "{} {step:?}", verdict.method);
             // The pair (2/h, 1/h^2), which needs no search, amplifies truncation errors.
             let is_far = step.own_gains.drift.is_none_or(|own| own > 3.0 * best);
-            assert!(is_far || verdict.quantity == Quantity::Position, "{} {step:?}", verdict.method);
+            assert!(is_far || verdict.quantity == CellQuantity::Position, "{} {step:?}", verdict.method);
         }
         // Post-stabilization completes at every step at which the integrator alone does, and at the next one or two.
-        let held = |level: fn(&StepVerdict) -> &Level| {
+        let held = |level: fn(&StepVerdict) -> &GainRun| {
             verdict.steps.iter().take_while(|step| level(step).drift.is_some()).count()
         };
         let alone = held(|s| &s.none);
@@ -114,8 +115,8 @@ fn the_verdict_on_baumgarte_of_the_scene() {
 #[test]
 fn ends_are_told_apart() {
     let subject = scene("robot_arm", Overrides { until: Some(2.0), ..Overrides::default() });
-    let own = |x: Axis, y: Axis| pair(&subject, x, y, Quantity::Velocity);
-    let axis = |text: &str| Axis::parse(text, &subject).unwrap();
+    let own = |x: MapAxis, y: MapAxis| pair(&subject, x, y, CellQuantity::Velocity);
+    let axis = |text: &str| MapAxis::parse(text, &subject).unwrap();
     // Large steps without stabilization, and with a gain far beyond the stable ones.
     let wild = stress(&subject, own(axis("step=0.1..0.2:2"), axis("gain=1e3..1e4:2:log")), limits(200_000), &|| {});
     assert!(all(&wild, |cell| cell.status == Status::Diverged && cell.reason.is_some()), "{:?}", wild.cells);
@@ -158,8 +159,8 @@ fn maps_are_repeatable() {
 fn light_bodies_do_not_hang_the_recorder() {
     let subject = scene("robot_arm", Overrides { rtol: Some(1e-8), atol: Some(1e-8), ..Overrides::default() });
     let [x, y] = [("mass_ratio", vec![1e-8, 1.0]), ("tolerance", vec![1e-8])]
-        .map(|(name, values)| Axis::of(parameter(name), values));
-    let stressed = stress(&subject, pair(&subject, x, y, Quantity::Velocity), limits(20_000), &|| {});
+        .map(|(name, values)| MapAxis::of(parameter(name), values));
+    let stressed = stress(&subject, pair(&subject, x, y, CellQuantity::Velocity), limits(20_000), &|| {});
     assert!(all(&stressed, |cell| cell.steps <= 20_000), "{:?}", stressed.cells);
     assert_eq!(stressed.cells[1].status, Status::Completed);
 }
@@ -190,15 +191,15 @@ fn every_stress_parameter_changes_some_scene() {
         };
         let subject = scene(model, overrides);
         assert!((parameter(name).suits)(&subject), "{name} {model}");
-        let y = Axis::of(parameter("tolerance"), vec![1e-7]);
+        let y = MapAxis::of(parameter("tolerance"), vec![1e-7]);
         let map = match name {
             "tolerance" => pair(
                 &subject,
-                Axis::of(parameter(name), values.to_vec()),
-                Axis::of(parameter("time"), vec![2.0]),
-                Quantity::Velocity,
+                MapAxis::of(parameter(name), values.to_vec()),
+                MapAxis::of(parameter("time"), vec![2.0]),
+                CellQuantity::Velocity,
             ),
-            _ => pair(&subject, Axis::of(parameter(name), values.to_vec()), y, Quantity::Velocity),
+            _ => pair(&subject, MapAxis::of(parameter(name), values.to_vec()), y, CellQuantity::Velocity),
         };
         let stressed = stress(&subject, map, limits(200_000), &|| {});
         let [a, b] = &stressed.cells[..] else { panic!("two cells") };

@@ -3,10 +3,12 @@
 use crate::common::readings;
 use holonom::clock;
 use holonom::method_spec::MethodSpec;
-use holonom::plot::{Align, Form, Item};
+use holonom::plot::{Align, Item, ItemForm};
 use holonom::prepared::Overrides;
 use holonom::report::stress::{sentences, stress_figure};
-use holonom::study::stress::{Axis, Cell, Limits, Map, Quantity, Status, Stressed, Subject, find, maps, pair, stress};
+use holonom::study::stress::{
+    Cell, CellQuantity, Limits, Map, MapAxis, Status, Stressed, Subject, find, maps, pair, stress,
+};
 use holonom::tolerances::WRONG_MOTION;
 use std::path::Path;
 use std::time::Duration;
@@ -31,7 +33,7 @@ fn gains(name: &str, steps: [f64; 4]) -> Stressed {
     let subject = scene(name, Overrides::default());
     let mut map = map(&subject, "gain");
     map.methods.retain(|method| method.label == "heun");
-    map.x = Axis::of(find("step").unwrap(), steps.to_vec());
+    map.x = MapAxis::of(find("step").unwrap(), steps.to_vec());
     stress(&subject, map, within(Duration::MAX), &|| {})
 }
 
@@ -114,14 +116,14 @@ fn the_figure_names_its_cells() {
     let at = |item: &Item, column: f64, row: f64| item.spots[0].at == (column, row);
     let drawn = |column: usize, row: usize| {
         let (x, y) = (column as f64, row as f64);
-        let cell = panel.items.iter().find(|item| item.form == Form::Cell && at(item, x - 0.5, y - 0.5)).unwrap();
-        let word = panel.items.iter().find(|item| item.form != Form::Cell && at(item, x, y));
+        let cell = panel.items.iter().find(|item| item.form == ItemForm::Cell && at(item, x - 0.5, y - 0.5)).unwrap();
+        let word = panel.items.iter().find(|item| item.form != ItemForm::Cell && at(item, x, y));
         (cell.tint, word.map(|word| word.form.clone()))
     };
     assert!((0..rows.len()).all(|row| drawn(0, row).0 == left_out));
     for cell in part.cells.iter().filter(|cell| cell.status == Status::Diverged) {
         let column = [3, 0, 1, 2][cell.column];
-        assert_eq!(drawn(column, cell.row), (diverged, Some(Form::Text("∞".to_string(), Align::Middle))));
+        assert_eq!(drawn(column, cell.row), (diverged, Some(ItemForm::Text("∞".to_string(), Align::Middle))));
     }
 }
 
@@ -173,8 +175,8 @@ fn what_is_zero_by_physics_spoils_no_errors() {
     for (name, time) in [("pendulum", 1.0), ("parallelogram", 0.2), ("bricard", 0.05)] {
         let dopri5 = Some(MethodSpec::named("dopri5"));
         let subject = scene(name, Overrides { integrator: dopri5, step: None, ..Overrides::default() });
-        let [x, y] = [("tolerance", 1e-6), ("time", time)].map(|(name, at)| Axis::of(find(name).unwrap(), vec![at]));
-        let stressed = stress(&subject, pair(&subject, x, y, Quantity::Error), within(Duration::MAX), &|| {});
+        let [x, y] = [("tolerance", 1e-6), ("time", time)].map(|(name, at)| MapAxis::of(find(name).unwrap(), vec![at]));
+        let stressed = stress(&subject, pair(&subject, x, y, CellQuantity::Error), within(Duration::MAX), &|| {});
         let cell = &stressed.cells[0];
         assert!(cell.error.is_some_and(|error| error > 0.0 && error < 1e-3), "{name}: {cell:?}");
     }
@@ -186,8 +188,8 @@ fn corners_have_references() {
     for name in ["quarter_car", "five_link_suspension"] {
         let subject = scene(name, Overrides { until: Some(0.5), ..Overrides::default() });
         let mut map = map(&subject, "stiffness");
-        map.x = Axis::of(find("stiffness").unwrap(), vec![1e2, 1e5]);
-        map.y = Axis::of(find("mass_ratio").unwrap(), vec![1.0, 100.0]);
+        map.x = MapAxis::of(find("stiffness").unwrap(), vec![1e2, 1e5]);
+        map.y = MapAxis::of(find("mass_ratio").unwrap(), vec![1.0, 100.0]);
         let stressed = stress(&subject, map, within(Duration::MAX), &|| {});
         for cell in &stressed.cells {
             assert!(cell.error.is_some_and(|error| error > 0.0 && error < 1e-4), "{name}: {cell:?}");

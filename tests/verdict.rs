@@ -1,7 +1,7 @@
 //! The verdict on a linear model: right ones are blessed, and terms that are spoilt on purpose are condemned with their
 //! size, in the entry where they are.
 
-use holonom::linearize::{Built, Chart, Matrix, State};
+use holonom::linearize::{Chart, LinearMatrices, Matrix, State};
 use holonom::prepared::{Model, Overrides};
 use holonom::validate::{Deviation, Reason, Settings, Validation, horizon, validate, validate_changed};
 use std::path::Path;
@@ -61,7 +61,7 @@ const SCENES: [(&str, f64); 24] = [
     ("universal_shaft", 0.2),
 ];
 
-fn matrix(built: &mut Built, name: char) -> &mut Matrix {
+fn matrix(built: &mut LinearMatrices, name: char) -> &mut Matrix {
     match name {
         'A' => &mut built.a,
         'B' => &mut built.b,
@@ -75,7 +75,7 @@ fn deviation(found: &Validation, name: char) -> Option<&Deviation> {
 }
 
 /// Adds to the entry a part of the largest entry of its row, or of its matrix. Returns its size and the entry's place.
-fn spoil(built: &mut Built, name: char, (i, j): (usize, usize), part: f64) -> f64 {
+fn spoil(built: &mut LinearMatrices, name: char, (i, j): (usize, usize), part: f64) -> f64 {
     let own = matrix(built, name);
     let size = part * Some(own.row(i).amax()).filter(|x| *x > 0.0).unwrap_or(own.amax().max(1e-3));
     own[(i, j)] += size;

@@ -24,7 +24,7 @@ const ENERGY_LOOKED: f64 = 4.0;
 /// L. Where E is far beyond, and the force of the largest power grows with it, the motion diverges.
 #[derive(Default)]
 pub struct Divergence {
-    start: Option<Start>,
+    start: Option<MotionStart>,
     /// Energy that the scene holds, J.
     held: f64,
     /// E and the sizes of all forces at the last look at them.
@@ -34,7 +34,7 @@ pub struct Divergence {
     length: Option<f64>,
 }
 
-struct Start {
+struct MotionStart {
     q: Vec<f64>,
     v: Vec<f64>,
     potential: f64,
@@ -51,7 +51,7 @@ impl Divergence {
     ) -> Option<Stop> {
         let effort = state.effort? * *self.length.get_or_insert_with(|| system.facts().length.max(1.0));
         let Some(start) = &self.start else {
-            self.start = Some(Start { q: state.q.to_vec(), v: state.v.to_vec(), potential: ledger.potential });
+            self.start = Some(MotionStart { q: state.q.to_vec(), v: state.v.to_vec(), potential: ledger.potential });
             self.held = ledger.kinetic + effort;
             return None;
         };

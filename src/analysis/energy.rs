@@ -37,7 +37,7 @@ pub struct EnergyBalance {
 
 /// The largest sizes of energies along a motion, J.
 #[derive(Clone, Copy, Debug, Default)]
-struct Sizes {
+struct EnergySizes {
     kinetic: f64,
     potential: f64,
     /// Largest change of potential, and work.
@@ -108,7 +108,7 @@ impl WorstRow {
 pub struct EnergyMeter {
     balance: Option<EnergyBalance>,
     potential: f64,
-    sizes: Sizes,
+    sizes: EnergySizes,
     /// Error of the balance at the last state, J.
     error: f64,
     worst: WorstStep,
@@ -151,7 +151,7 @@ impl EnergyMeter {
             let round_off = tolerances::ROUND_OFF_OF_SOLUTIONS * (row.kinetic + row.potential.abs() + row.work.abs());
             self.worst.add(state.t, change.max(round_off), tolerated);
         }
-        let Sizes { kinetic, potential, change } = &mut self.sizes;
+        let EnergySizes { kinetic, potential, change } = &mut self.sizes;
         *kinetic = kinetic.max(row.kinetic);
         *potential = potential.max(row.potential.abs());
         *change = change.max((row.potential - self.potential).abs()).max(state.work.abs());
@@ -175,7 +175,7 @@ impl EnergyMeter {
 
     /// Returns the balance up to the last state; `None` before the first state or without a potential.
     pub fn balance(&self) -> Option<EnergyBalance> {
-        let Sizes { kinetic, potential, change } = self.sizes;
+        let EnergySizes { kinetic, potential, change } = self.sizes;
         let turned_over = kinetic.max(change);
         self.balance.map(|balance| {
             let nothing = (tolerances::ROUND_OFF_OF_SOLUTIONS * potential)

@@ -23,16 +23,16 @@ pub use extremes::Extremes;
 #[doc(hidden)]
 pub use ledger::Ledger;
 #[doc(hidden)]
-pub use range::Range;
+pub use range::ValidityRange;
 pub use rank::Rank;
 #[doc(hidden)]
 pub use rank::{Redundant, dependent_nearby};
 pub(crate) use recorder::MOST_JUMPS;
-pub use recorder::{Record, Recorder, Row};
+pub use recorder::{OutputRow, Record, Recorder};
 #[doc(hidden)]
 pub use scale::{Sizes, scales};
 pub use series::Series;
 #[doc(hidden)]
-pub use singularity::{Branch, Nearest, Watch};
+pub use singularity::{Nearest, SingularityBranch, SingularityWatch};
 pub use singularity::{Passing, Singularity};
 pub(crate) use thinned::thin;

@@ -9,7 +9,7 @@ use std::f64::consts::PI;
 /// The largest deformation of each part whose theory is valid for small ones only, the largest rotation between
 /// evaluations, the deepest wheel, and signals beyond their points.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Range {
+pub struct ValidityRange {
     /// The largest deformation of each such part.
     pub parts: Vec<LargestDeformation>,
     /// The largest rotation of a body between evaluations of the equations.
@@ -49,7 +49,7 @@ pub struct LargestDeformation {
     pub t: f64,
 }
 
-impl Range {
+impl ValidityRange {
     /// A range without states.
     pub fn new(system: &dyn MechanicalSystem) -> Self {
         let start = |limited: &Limited| LargestDeformation { limited: limited.clone(), deformation: 0.0, t: 0.0 };
@@ -58,7 +58,7 @@ impl Range {
         let now = vec![0.0; parts.len()];
         let spins = vec![0.0; bodies.len()];
         let held = HeldSignals::new(system);
-        Range { now, spins, parts, bodies, leap: None, sunk: None, held }
+        ValidityRange { now, spins, parts, bodies, leap: None, sunk: None, held }
     }
 
     /// Adds an accepted state.
@@ -98,7 +98,7 @@ impl Range {
 
     /// Returns the warnings for one state.
     pub fn warnings_at(system: &dyn MechanicalSystem, t: f64, q: &[f64]) -> Vec<Warning> {
-        let mut range = Range::new(system);
+        let mut range = ValidityRange::new(system);
         range.see(system, t, q);
         let still = vec![0.0; system.dimensions().v];
         range.see_roads(system, t, q, &still, &mut Scratch::default());

@@ -5,8 +5,8 @@ use super::drift::Drift;
 use super::energy::{EnergyBalance, EnergyMeter, WorstRow, WorstStep};
 use super::extremes::Extremes;
 use super::ledger::Ledger;
-use super::range::Range;
-use super::singularity::{Singularity, Watch};
+use super::range::ValidityRange;
+use super::singularity::{Singularity, SingularityWatch};
 use super::thinned::thin;
 use crate::math::array::Each;
 use crate::math::largest;
@@ -45,7 +45,7 @@ pub struct Record {
     pub singularity: Singularity,
     /// Deformations of parts whose theory is valid for small ones only.
     #[doc(hidden)]
-    pub range: Range,
+    pub range: ValidityRange,
     /// Largest |phi|, |phi'|, |phi''| at each output row.
     pub drift_rows: Vec<[f64; 3]>,
     /// Energies at each output row; empty where the system defines no potential.
@@ -54,7 +54,7 @@ pub struct Record {
 }
 
 /// An output row as it is passed on.
-pub struct Row<'r> {
+pub struct OutputRow<'r> {
     /// t, q, v, lambda and outputs; t and outputs where only these are kept.
     pub values: &'r [f64],
     /// Largest |phi|, |phi'|, |phi''|.
@@ -81,7 +81,7 @@ pub struct Recorder<'a> {
     divergence: Divergence,
     /// The reason to end the run, if the motion diverges.
     diverged: Option<Stop>,
-    watch: Watch<'a>,
+    watch: SingularityWatch<'a>,
     record: Record,
     progress: Box<dyn FnMut(f64) + 'a>,
     stop: Box<dyn Fn() -> Option<Stop> + 'a>,
@@ -94,7 +94,7 @@ pub struct Recorder<'a> {
     before: Option<Made>,
 }
 
-type Pass<'a> = Box<dyn FnMut(Row) + 'a>;
+type Pass<'a> = Box<dyn FnMut(OutputRow) + 'a>;
 
 impl<'a> Recorder<'a> {
     /// A recorder for a run of `system`.
@@ -106,7 +106,7 @@ impl<'a> Recorder<'a> {
             meter: EnergyMeter::default(),
             divergence: Divergence::default(),
             diverged: None,
-            watch: Watch::new(system),
+            watch: SingularityWatch::new(system),
             record: Record {
                 trajectory: Trajectory::new(system),
                 last: None,
@@ -119,7 +119,7 @@ impl<'a> Recorder<'a> {
                 worst_step: WorstStep::default(),
                 worst_row: WorstRow::default(),
                 singularity: Singularity::default(),
-                range: Range::new(system),
+                range: ValidityRange::new(system),
                 drift_rows: Vec::new(),
                 ledger_rows: Vec::new(),
             },
@@ -149,14 +149,14 @@ impl<'a> Recorder<'a> {
     /// Passes each row on as it comes, and keeps those that curves need of the outputs, of the first `coordinates`, of
     /// drift and energies: memory is bounded, however long the run.
     #[doc(hidden)]
-    pub fn with_rows(mut self, coordinates: usize, pass: impl FnMut(Row) + 'a) -> Self {
+    pub fn with_rows(mut self, coordinates: usize, pass: impl FnMut(OutputRow) + 'a) -> Self {
         self.pass = Some(Box::new(pass));
         self.keep(coordinates)
     }
 
     /// Passes each row on as it comes, without its energies, and keeps the first and the last alone. Columns of outputs
     /// that `reads` is false of may be zero. Ranges of validity are not watched.
-    pub(crate) fn with_passed_rows(mut self, reads: impl Fn(usize) -> bool, pass: impl FnMut(Row) + 'a) -> Self {
+    pub(crate) fn with_passed_rows(mut self, reads: impl Fn(usize) -> bool, pass: impl FnMut(OutputRow) + 'a) -> Self {
         self.pass = Some(Box::new(pass));
         self.passes_only = true;
         // A jump is seen in any output.
@@ -221,7 +221,7 @@ impl Recorder<'_> {
         record.note_extremes(&values);
         record.rows += 1;
         if let (true, Some(pass)) = (self.passes_only, &mut self.pass) {
-            pass(Row { values: &values, drift, ledger });
+            pass(OutputRow { values: &values, drift, ledger });
             record.trajectory.rows.truncate(1);
             record.trajectory.rows.push(values);
             return;
@@ -240,7 +240,7 @@ impl Recorder<'_> {
         if let Some(pass) = &mut self.pass {
             let all = record.last.as_ref().filter(|_| !self.outputs_only).unwrap_or(&record.trajectory);
             if let Some(values) = all.rows.last() {
-                pass(Row { values, drift, ledger });
+                pass(OutputRow { values, drift, ledger });
             }
             thin(&mut record.trajectory.rows, &mut record.drift_rows, &mut record.ledger_rows);
         }

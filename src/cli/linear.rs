@@ -1,7 +1,7 @@
 //! Options and functions of the commands that make linear models.
 
 use super::common::{MethodOptions, Output, SceneOptions, Talk, number, unprintable};
-use crate::analysis::Range;
+use crate::analysis::ValidityRange;
 use crate::error::{Error, Result};
 use crate::linearize::{Chart, Linear, LinearizationMethod, Operating, State, at_rest, kinks, states_of, tighten};
 use crate::method_spec::MethodSpec;
@@ -130,7 +130,7 @@ impl StateOptions {
         let found = self.operating(prepared, talk)?;
         for place @ Operating { state, doubt, .. } in &found {
             talk.warn(doubt);
-            talk.warn(&Range::warnings_at(prepared.system(), state.t, &state.q));
+            talk.warn(&ValidityRange::warnings_at(prepared.system(), state.t, &state.q));
             talk.warn(&kinks(place.system(), state)?);
         }
         Ok(found)

@@ -4,7 +4,7 @@ use super::common::print_result;
 use crate::error::Result;
 use crate::integrator::{self, IntegratorEntry};
 use crate::method_spec::{MethodSpec, OptionDoc};
-use crate::report::Table;
+use crate::report::TextTable;
 use crate::simulate::check_pair;
 use crate::{formulation, projection};
 use serde::Serialize;
@@ -39,10 +39,10 @@ pub fn run(args: Args) -> Result<()> {
     print_result(args.json, &json(&pairs), || text(&pairs))
 }
 
-type Pair = (&'static IntegratorEntry, &'static str);
+type MethodPair = (&'static IntegratorEntry, &'static str);
 
 /// Returns integrators with the formulations that they accept, of the requested ones.
-fn pairs(args: &Args) -> Result<Vec<Pair>> {
+fn pairs(args: &Args) -> Result<Vec<MethodPair>> {
     let wanted = |name: &Option<String>| name.as_deref().map(MethodSpec::parse).transpose();
     let formulation = wanted(&args.formulation)?;
     let integrator = wanted(&args.integrator)?;
@@ -59,7 +59,7 @@ fn pairs(args: &Args) -> Result<Vec<Pair>> {
     Ok(pairs.filter(|(_, name)| is_wanted(&formulation, name)).collect())
 }
 
-fn lists(pairs: &[Pair]) -> [(&'static str, Vec<MethodItem>); 3] {
+fn lists(pairs: &[MethodPair]) -> [(&'static str, Vec<MethodItem>); 3] {
     let item = |name, about, options| MethodItem { name, about, r#for: purpose(name), options };
     let formulations = formulation::registry().iter().filter(|entry| pairs.iter().any(|pair| pair.1 == entry.name));
     let integrators = integrator::registry().iter().filter(|entry| pairs.iter().any(|pair| pair.0.name == entry.name));
@@ -72,7 +72,7 @@ fn lists(pairs: &[Pair]) -> [(&'static str, Vec<MethodItem>); 3] {
 }
 
 /// Returns the methods, and the accepted triples with their proven orders.
-fn json(pairs: &[Pair]) -> Value {
+fn json(pairs: &[MethodPair]) -> Value {
     let triples = pairs.iter().flat_map(|&(entry, formulation)| {
         let accepted = projection::registry().iter().filter(move |other| !entry.refuses(formulation, other.name));
         accepted.map(move |projection| {
@@ -90,7 +90,7 @@ fn json(pairs: &[Pair]) -> Value {
     lists.chain([("triples".to_string(), triples.collect())]).collect()
 }
 
-fn text(pairs: &[Pair]) -> String {
+fn text(pairs: &[MethodPair]) -> String {
     let mut text = "A method is a formulation x an integrator x a projection.\n\n".to_string();
     text += &orders(pairs);
     text += "\nOrders in q, v and lambda, each a test; one number where they agree; - where the projection would cost an \
@@ -112,10 +112,10 @@ fn fields() -> Vec<&'static str> {
 }
 
 /// Returns one row for the formulations of an integrator that have the same orders with every projection.
-fn orders(pairs: &[Pair]) -> String {
+fn orders(pairs: &[MethodPair]) -> String {
     let names = projection::registry().iter().map(|entry| entry.name);
     let headings: Vec<&str> = ["integrator", "formulation"].into_iter().chain(names).collect();
-    let mut table = Table::left(&headings);
+    let mut table = TextTable::left(&headings);
     for of_one in pairs.chunk_by(|a, b| a.0.name == b.0.name) {
         let mut rows: Vec<(Vec<String>, Vec<&str>)> = Vec::new();
         for &(entry, formulation) in of_one {

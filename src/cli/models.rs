@@ -2,7 +2,7 @@
 
 use super::common::{json_files, print_result};
 use crate::error::{Error, Result};
-use crate::report::Table;
+use crate::report::TextTable;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
@@ -46,7 +46,7 @@ pub fn run(args: Args) -> Result<()> {
         }
     }
     print_result(args.json, &scenes, || {
-        let mut table = Table::left(&["scene", "tags", "about"]);
+        let mut table = TextTable::left(&["scene", "tags", "about"]);
         for Listed { file, about, tags, .. } in &scenes {
             let first = about.split_inclusive(". ").next().unwrap_or_default().trim_end();
             table.row([file.clone(), tags.join(" "), first.to_string()]);

@@ -7,7 +7,7 @@ use crate::error::{Error, Failure, Result, Warning, clock, significant};
 use crate::linearize::State;
 use crate::prepared::{Model, Overrides};
 use crate::report::mechanism::{
-    Look, Motion, Trace, View, animation, find_trace, mechanism_figure, output_traces, stroboscope_figure, up,
+    DrawnMotion, Look, Trace, View, animation, find_trace, mechanism_figure, output_traces, stroboscope_figure, up,
 };
 use crate::report::{Ending, FinishedRun, Folder, Format, Origin, Shown, outputs_figure};
 use crate::simulate::Span;
@@ -39,7 +39,7 @@ pub struct Args {
     frames: u16,
     /// The mechanism in motion
     #[arg(long, value_enum, value_name = "FORMAT")]
-    animate: Option<Moving>,
+    animate: Option<AnimationFormat>,
     /// The motion as motion.glb, a file of glTF for viewers, slides and Blender
     #[arg(long)]
     gltf: bool,
@@ -73,7 +73,7 @@ pub struct Args {
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
-enum Moving {
+enum AnimationFormat {
     Gif,
     Svg,
 }
@@ -139,7 +139,7 @@ pub fn run(args: Args) -> Result<ExitCode> {
         has_gltf: args.gltf,
         files: Vec::new(),
     };
-    let motion = Motion::new(&prepared, &trajectory).titled(shown.title(&prepared.name));
+    let motion = DrawnMotion::new(&prepared, &trajectory).titled(shown.title(&prepared.name));
     args.common.talk.warn(&motion.sparse().filter(|_| args.from.is_some() && args.is_in_motion()));
     args.draw(&motion, &shown, &look, &mut folder, &mut drawn)?;
     drawn.files = folder.paths();
@@ -176,7 +176,7 @@ impl Args {
                     .hint("simulate without --outputs-only, or leave out --from"))
             }
             Some(trajectory) => {
-                let (start, end) = Motion::new(prepared, trajectory).reach();
+                let (start, end) = DrawnMotion::new(prepared, trajectory).reach();
                 Ok(Some(Span { start, end, output_step: prepared.span().map_or(end - start, |span| span.output_step) }))
             }
         }
@@ -245,7 +245,14 @@ impl Args {
         Ok((record.trajectory, ending, outcome.failure))
     }
 
-    fn draw(&self, motion: &Motion, shown: &Shown, look: &Look, folder: &mut Folder, drawn: &mut Drawn) -> Result<()> {
+    fn draw(
+        &self,
+        motion: &DrawnMotion,
+        shown: &Shown,
+        look: &Look,
+        folder: &mut Folder,
+        drawn: &mut Drawn,
+    ) -> Result<()> {
         let prepared = motion.prepared;
         if self.stroboscope {
             drawn.times = self.times(motion);
@@ -276,7 +283,7 @@ impl Args {
     }
 
     /// Returns the chosen times up to the end of the run; else evenly spaced ones.
-    fn times(&self, motion: &Motion) -> Vec<f64> {
+    fn times(&self, motion: &DrawnMotion) -> Vec<f64> {
         let (start, end) = motion.reach();
         if !self.at.is_empty() {
             let mut times: Vec<f64> = self.at.iter().copied().filter(|t| *t <= end).collect();
@@ -305,8 +312,8 @@ impl Args {
 
     fn animation(
         &self,
-        format: Moving,
-        motion: &Motion,
+        format: AnimationFormat,
+        motion: &DrawnMotion,
         look: &Look,
         folder: &mut Folder,
         drawn: &mut Drawn,
@@ -317,8 +324,8 @@ impl Args {
         let times = (0..film.frames).map(|k| start + (end - start) * k as f64 / last).collect();
         let animation = animation(motion, look, times, film.fps, speed_text(film.speed));
         match format {
-            Moving::Svg => folder.write("animation.svg", animation.to_svg().as_bytes())?,
-            Moving::Gif => {
+            AnimationFormat::Svg => folder.write("animation.svg", animation.to_svg().as_bytes())?,
+            AnimationFormat::Gif => {
                 let bar = self.common.talk.progress(film.frames as u64, "frames");
                 let bytes = animation.to_gif(|done| bar.set_position(done as u64)).map_err(Error::input)?;
                 folder.write("animation.gif", &bytes)?;

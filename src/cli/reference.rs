@@ -4,7 +4,7 @@ use super::common::{pick, print, to_json};
 use crate::error::Result;
 use crate::math::expression::LANGUAGE;
 use crate::prepared;
-use crate::report::Table;
+use crate::report::TextTable;
 use crate::scene::units::Dimension;
 use crate::scene::{Elements, MeasureKind};
 use serde_json::Value;
@@ -28,7 +28,7 @@ const DEEPEST: usize = 6;
 const WIDTH: usize = 110;
 
 pub fn run(args: Args) -> Result<()> {
-    let reference = Reference { schema: prepared::schema(&Elements::default()) };
+    let reference = FormatReference { schema: prepared::schema(&Elements::default()) };
     let text = match &args.topic {
         None => reference.all(),
         Some(topic) => reference.topic(topic)?,
@@ -47,11 +47,11 @@ struct InnerKey<'v> {
     owners: Vec<&'v str>,
 }
 
-struct Reference {
+struct FormatReference {
     schema: Value,
 }
 
-impl Reference {
+impl FormatReference {
     fn all(&self) -> String {
         let mut text = format!("{}\n\n{}", wrapped(&plain(&self.schema), 0), self.keys(&self.schema));
         for key in ELEMENTS {
@@ -128,7 +128,7 @@ impl Reference {
 
     /// Returns the types of an element with the first sentence on each.
     fn types(&self, key: &str) -> String {
-        let mut table = Table::left(&["type", ""]);
+        let mut table = TextTable::left(&["type", ""]);
         for kind in self.elements(key) {
             let about = plain(kind);
             let first = about.split_once(": ").filter(|(head, _)| !head.contains('.')).map_or(about.as_str(), |x| x.0);
@@ -209,7 +209,7 @@ impl Reference {
     }
 
     fn measures(&self) -> String {
-        let mut table = Table::left(&["measure", "keys", "unit, and what it is"]);
+        let mut table = TextTable::left(&["measure", "keys", "unit, and what it is"]);
         for kind in self.measure_kinds() {
             let name = kind["const"].as_str().unwrap_or_default();
             table.row([name.to_string(), keys_of(kind).join(", "), plain(kind)]);
@@ -299,7 +299,7 @@ fn wrapped(text: &str, indentation: usize) -> String {
 
 fn language() -> String {
     let mut text = String::new();
-    let mut table: Option<Table> = None;
+    let mut table: Option<TextTable> = None;
     for line in LANGUAGE.lines().chain([""]) {
         let cells = line.strip_prefix('|').and_then(|line| line.strip_suffix('|'));
         let Some(cells) = cells.map(|cells| cells.replace("\\|", "\u{0}").replace('`', "")) else {
@@ -311,14 +311,14 @@ fn language() -> String {
         match &mut table {
             _ if cells[0].starts_with("--") => {}
             Some(table) => table.row(cells),
-            none => *none = Some(Table::left(&cells.iter().map(String::as_str).collect::<Vec<_>>())),
+            none => *none = Some(TextTable::left(&cells.iter().map(String::as_str).collect::<Vec<_>>())),
         }
     }
     text.trim_end().to_string() + "\n"
 }
 
 fn units() -> String {
-    let mut table = Table::left(&["quantity", "units, that of the SI first"]);
+    let mut table = TextTable::left(&["quantity", "units, that of the SI first"]);
     for dimension in Dimension::all() {
         table.row([dimension.word().to_string(), dimension.units().collect::<Vec<_>>().join(", ")]);
     }

@@ -9,7 +9,7 @@ use std::path::Path;
 
 /// The part of a `summary.json` that is read.
 #[derive(Deserialize)]
-struct Saved {
+struct SavedSummary {
     parameters: Map<String, Value>,
     #[serde(default)]
     scene_hash: String,
@@ -36,7 +36,7 @@ pub fn read(path: &Path, prepared: &Model, changed: bool) -> Result<Checkpoint> 
 
 /// Refuses a run of another scene, and a state that no run has left.
 fn checked(
-    Saved { parameters, scene_hash, r#final: LastRow { q, v }, restart }: Saved,
+    SavedSummary { parameters, scene_hash, r#final: LastRow { q, v }, restart }: SavedSummary,
     prepared: &Model,
     changed: bool,
 ) -> Result<Checkpoint> {

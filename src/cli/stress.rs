@@ -6,8 +6,8 @@ use crate::clock::Stopwatch;
 use crate::error::{Error, Result};
 use crate::math::expression::{Number, Parameters};
 use crate::report::stress::{FolderMaps, SceneMaps};
-use crate::report::{Answer, Table};
-use crate::study::stress::{Axis, Limits, Map, Quantity, Subject, known, maps, pair, registry, stress};
+use crate::report::{Answer, TextTable};
+use crate::study::stress::{CellQuantity, Limits, Map, MapAxis, Subject, known, maps, pair, registry, stress};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use std::time::Duration;
@@ -110,18 +110,19 @@ fn prepare(args: &Args, path: &Path) -> Result<(Subject<'static>, Vec<Map>)> {
     subject.is_stopped = &interrupt::is_asked;
     args.talk.warn(&subject.doubts);
     let quantity = args.show.as_ref().map(|name| quantity(name)).transpose()?;
-    let axis = |text: &str, option: &str| Axis::parse(text, &subject).map_err(|error| error.under(option));
+    let axis = |text: &str, option: &str| MapAxis::parse(text, &subject).map_err(|error| error.under(option));
     let mut maps = match (&args.x, &args.y) {
-        (Some(x), Some(y)) => vec![pair(&subject, axis(x, "--x")?, axis(y, "--y")?, Quantity::Velocity)],
+        (Some(x), Some(y)) => vec![pair(&subject, axis(x, "--x")?, axis(y, "--y")?, CellQuantity::Velocity)],
         _ => maps(&subject, &args.map).map_err(|error| error.under("--map"))?,
     };
     maps.iter_mut().for_each(|map| map.quantity = quantity.unwrap_or(map.quantity));
     Ok((subject, maps))
 }
 
-fn quantity(name: &str) -> Result<Quantity> {
-    let name = pick("quantity", name, &Quantity::ALL.map(Quantity::name)).map_err(|error| error.under("--show"))?;
-    Ok(Quantity::ALL.into_iter().find(|quantity| quantity.name() == name).unwrap_or(Quantity::Velocity))
+fn quantity(name: &str) -> Result<CellQuantity> {
+    let name =
+        pick("quantity", name, &CellQuantity::ALL.map(CellQuantity::name)).map_err(|error| error.under("--show"))?;
+    Ok(CellQuantity::ALL.into_iter().find(|quantity| quantity.name() == name).unwrap_or(CellQuantity::Velocity))
 }
 
 impl Args {
@@ -159,8 +160,8 @@ fn simulate(args: &Args, subject: &Subject, maps: Vec<Map>, begun: Stopwatch) ->
 }
 
 fn list() -> String {
-    let mut maps = Table::left(&["map", ""]);
-    let mut extremes = Table::left(&["extreme", ""]);
+    let mut maps = TextTable::left(&["map", ""]);
+    let mut extremes = TextTable::left(&["extreme", ""]);
     known().iter().for_each(|map| maps.row([map.name.to_string(), map.about.to_string()]));
     registry().iter().for_each(|extreme| extremes.row([extreme.name.to_string(), extreme.about.to_string()]));
     format!("{maps}\n{extremes}")

@@ -44,7 +44,7 @@ pub struct Args {
 }
 
 /// A motion with all that a page shows of it.
-struct Seen {
+struct ViewedMotion {
     prepared: Model,
     trajectory: Trajectory,
     drift: Vec<[f64; 3]>,
@@ -102,7 +102,7 @@ fn label(path: &Path) -> String {
 }
 
 impl Args {
-    fn finished(&self, path: &Path, option: &str) -> Result<Seen> {
+    fn finished(&self, path: &Path, option: &str) -> Result<ViewedMotion> {
         let run = FinishedRun::read(path, false).map_err(|error| error.under(option))?;
         let overrides = Overrides { set: run.parameters.clone(), ..Overrides::default() };
         let prepared = self.common.talk.load(&self.common.scene.path, &overrides);
@@ -120,11 +120,11 @@ impl Args {
             .hint("simulate without --outputs-only"));
         }
         let shown = Shown::of_trajectory(ending, &trajectory);
-        Ok(Seen { prepared, trajectory, drift, energy, failure, shown })
+        Ok(ViewedMotion { prepared, trajectory, drift, energy, failure, shown })
     }
 
     /// Runs the scene, with as many rows as the page shows.
-    fn simulate(&self, prepared: Model, span: Span, folder: &Folder) -> Result<Seen> {
+    fn simulate(&self, prepared: Model, span: Span, folder: &Folder) -> Result<ViewedMotion> {
         let length = span.end - span.start;
         let mut recorder = Recorder::new(prepared.system())
             .with_progress(self.common.talk.progress_between(span.start, span.end, &prepared.name))
@@ -134,7 +134,7 @@ impl Args {
         let record = recorder.finish();
         let ending = Ending::of(outcome.failure.as_ref(), &record.drift, record.energy.as_ref());
         let shown = Shown::of_trajectory(ending, &record.trajectory);
-        Ok(Seen {
+        Ok(ViewedMotion {
             prepared,
             trajectory: record.trajectory,
             drift: record.drift_rows,
@@ -156,7 +156,7 @@ impl Args {
     }
 }
 
-impl Seen {
+impl ViewedMotion {
     fn notes(&self) -> Vec<String> {
         let stopped = |failure: &Failure| format!("this run stopped at t = {} s: {}", clock(failure.t), failure.reason);
         self.failure.as_ref().map(stopped).into_iter().chain(self.shown.note()).collect()

@@ -34,7 +34,7 @@ pub struct Coordinates {
 }
 
 /// The terms of a chart with one z for each y, the states xi among them.
-struct Terms {
+struct ChartTerms {
     r: Matrix,
     b: Matrix,
     tilt: Matrix,
@@ -43,10 +43,10 @@ struct Terms {
     lift: Lift,
 }
 
-impl Terms {
+impl ChartTerms {
     /// The chart without a z for the last `states` directions, whose terms are zero; `name` of z and of y.
     fn named(self, variation: &Variation, name: &str, names: (Vec<String>, Vec<String>)) -> Coordinates {
-        let Terms { r, b, tilt, turn, drift: [of_z, of_y], lift } = self;
+        let ChartTerms { r, b, tilt, turn, drift: [of_z, of_y], lift } = self;
         let states = variation.system().dimensions().states;
         let k = r.ncols() - states;
         let own = variation.system().facts().names.v.clone().split_off(r.nrows() - states);
@@ -110,7 +110,7 @@ pub(super) fn constant(
     let turn = -&b * variation.bracket_of(&variation.point.v, &r);
     let none = Matrix::zeros(r.ncols(), r.ncols());
     let lift = Lift::constant(variation, &r, &b)?;
-    Ok(Terms { r, b, tilt, turn, drift: [none.clone(), none], lift }.named(variation, name, names))
+    Ok(ChartTerms { r, b, tilt, turn, drift: [none.clone(), none], lift }.named(variation, name, names))
 }
 
 /// The chart of a basis that moves as little as it can in the mass metric, R' = -S G' R with S the least corrections. Since
@@ -158,7 +158,7 @@ pub(super) fn frozen(variation: &mut Variation, z: Matrix) -> Result<Coordinates
     let lift = Lift::frozen(variation, &z, &b)?;
     let drift = [none.clone(), &b * &turned];
     let names = numbered(variation, z.ncols());
-    Ok(Terms { r: z, b, tilt: turned, turn: none, drift, lift }.named(variation, "frozen", names))
+    Ok(ChartTerms { r: z, b, tilt: turned, turn: none, drift, lift }.named(variation, "frozen", names))
 }
 
 /// The chart dq = N u with N parallel in the mass metric, N^T (M N' + W N) = 0. With Q = -[v, .] and S the least
@@ -199,7 +199,7 @@ pub fn parallel(variation: &mut Variation, n: Matrix) -> Result<Coordinates> {
     let none = Matrix::zeros(n.ncols(), n.ncols());
     let lift = Lift::parallel(variation, &n, &b, &n_dot, &connection)?;
     let names = numbered(variation, n.ncols());
-    let terms = Terms { r: n, b, tilt: n_dot - turned, turn: none, drift, lift };
+    let terms = ChartTerms { r: n, b, tilt: n_dot - turned, turn: none, drift, lift };
     Ok(terms.named(variation, "intrinsic", names))
 }
 

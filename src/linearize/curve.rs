@@ -3,16 +3,14 @@
 use super::{Branch, Complex};
 use crate::tolerances::EIGENVALUES_AGREE;
 
-type C = Complex<f64>;
-
 /// A point of a branch.
 #[derive(Clone, Copy)]
 struct Knot {
     /// Time or parameter.
     at: f64,
-    value: C,
+    value: Complex<f64>,
     /// Derivative of the eigenvalue, where it is known.
-    slope: Option<C>,
+    slope: Option<Complex<f64>>,
 }
 
 /// Largest difference of the mean of both derivatives from the slope of the chord where a cubic is drawn. Unit: `[1]` of the
@@ -42,7 +40,7 @@ impl Branch {
 }
 
 /// Returns points between two knots, in their order.
-fn between(from: Knot, to: Knot, parts: usize) -> Vec<(f64, C)> {
+fn between(from: Knot, to: Knot, parts: usize) -> Vec<(f64, Complex<f64>)> {
     let inner = (1..parts).map(|i| i as f64 / parts as f64);
     let is_real = |knot: Knot| knot.value.im == 0.0;
     let is_known = from.value.im.is_finite() && to.value.im.is_finite();
@@ -60,16 +58,16 @@ fn between(from: Knot, to: Knot, parts: usize) -> Vec<(f64, C)> {
 }
 
 /// The real part and the square of the imaginary part of an eigenvalue, or their derivatives along `length`.
-fn squared(value: C) -> [f64; 2] {
+fn squared(value: Complex<f64>) -> [f64; 2] {
     [value.re, value.im * value.im]
 }
 
-fn squared_rate(value: C, slope: C, length: f64) -> [f64; 2] {
+fn squared_rate(value: Complex<f64>, slope: Complex<f64>, length: f64) -> [f64; 2] {
     [slope.re * length, 2.0 * value.im * slope.im * length]
 }
 
 /// The cubic between two knots that are both real or both of a pair; none where it is not smooth.
-fn smooth(from: Knot, to: Knot, inner: impl Iterator<Item = f64>) -> Option<Vec<(f64, C)>> {
+fn smooth(from: Knot, to: Knot, inner: impl Iterator<Item = f64>) -> Option<Vec<(f64, Complex<f64>)>> {
     let length = to.at - from.at;
     let rates = [squared_rate(from.value, from.slope?, length), squared_rate(to.value, to.slope?, length)];
     let ends = [squared(from.value), squared(to.value)];
@@ -85,7 +83,7 @@ fn smooth(from: Knot, to: Knot, inner: impl Iterator<Item = f64>) -> Option<Vec<
     let cubic = |k: usize, s: f64| hermite([ends[0][k], ends[1][k]], [rates[0][k], rates[1][k]], s);
     let point = |s: f64| {
         let im = cubic(1, s).max(0.0).sqrt().copysign(from.value.im);
-        (from.at + s * length, C::new(cubic(0, s), im))
+        (from.at + s * length, Complex::new(cubic(0, s), im))
     };
     Some(inner.map(point).collect())
 }
@@ -93,10 +91,10 @@ fn smooth(from: Knot, to: Knot, inner: impl Iterator<Item = f64>) -> Option<Vec<
 /// The curve from an eigenvalue of a pair over the value at which the pair becomes real to a real one, m -+ sqrt(d): the mean
 /// m of the pair goes straight on, and d is the cubic with the values and derivatives that both ends have. Half-way on the
 /// axis where derivatives do not tell.
-fn meeting(from: Knot, to: Knot, parts: usize) -> Vec<(f64, C)> {
+fn meeting(from: Knot, to: Knot, parts: usize) -> Vec<(f64, Complex<f64>)> {
     let pair = from.value;
     let Some((start, end)) = from.slope.zip(to.slope) else {
-        return vec![(0.5 * (from.at + to.at), C::new(pair.re, 0.0))];
+        return vec![(0.5 * (from.at + to.at), Complex::new(pair.re, 0.0))];
     };
     let length = to.at - from.at;
     let mean = |s: f64| pair.re + start.re * length * s;
@@ -114,11 +112,11 @@ fn meeting(from: Knot, to: Knot, parts: usize) -> Vec<(f64, C)> {
     let near = |i: usize| (i as f64 / parts as f64).powi(2);
     let before = (0..parts).rev().map(|i| {
         let s = meets * (1.0 - near(i));
-        (s, C::new(mean(s), (-square(s)).max(0.0).sqrt().copysign(pair.im)))
+        (s, Complex::new(mean(s), (-square(s)).max(0.0).sqrt().copysign(pair.im)))
     });
     let after = (1..parts).map(|i| {
         let s = meets + (1.0 - meets) * near(i);
-        (s, C::new(mean(s) + square(s).max(0.0).sqrt().copysign(gap), 0.0))
+        (s, Complex::new(mean(s) + square(s).max(0.0).sqrt().copysign(gap), 0.0))
     });
     before.chain(after).map(|(s, value)| (from.at + s * length, value)).collect()
 }

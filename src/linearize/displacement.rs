@@ -6,14 +6,14 @@ use crate::tolerances;
 
 /// The masses of the directions of v, and the length by which each moves points: 1 for a position, the length of the
 /// mechanism for a rotation.
-struct Inertia {
+struct DirectionInertia {
     masses: Vec<f64>,
     lengths: Vec<f64>,
     /// The largest mass, kg: of a rotation over the square of the length.
     largest: f64,
 }
 
-impl Inertia {
+impl DirectionInertia {
     fn of(variation: &Variation) -> Self {
         let system = variation.system();
         let mut masses = vec![0.0; variation.velocities()];
@@ -23,7 +23,7 @@ impl Inertia {
         let length = system.facts().length;
         let lengths: Vec<f64> = names.iter().map(|name| if is_rotation(name) { length } else { 1.0 }).collect();
         let largest = masses.iter().zip(&lengths).map(|(mass, length)| mass / (length * length)).fold(0.0, f64::max);
-        Inertia { masses, lengths, largest }
+        DirectionInertia { masses, lengths, largest }
     }
 
     /// The directions that move q without inertia, with their lengths.
@@ -37,7 +37,7 @@ impl Inertia {
 /// Returns the mass that each direction without inertia counts as where motions are compared, that of the heaviest
 /// direction; zero for the others.
 pub(super) fn added_mass(variation: &Variation) -> Vec<f64> {
-    let inertia = Inertia::of(variation);
+    let inertia = DirectionInertia::of(variation);
     let mut added = vec![0.0; inertia.masses.len()];
     inertia.massless().for_each(|(i, length)| added[i] = inertia.largest * length * length);
     added
@@ -46,7 +46,7 @@ pub(super) fn added_mass(variation: &Variation) -> Vec<f64> {
 /// Returns the weight of each row of Z, Z^T M Z = I: the square root of its mass, and without inertia the displacement of
 /// points over the largest of all rows. Weighed rows are not longer than 1.
 pub(super) fn weights(variation: &Variation, z: &Matrix) -> Vec<f64> {
-    let inertia = Inertia::of(variation);
+    let inertia = DirectionInertia::of(variation);
     let moved = inertia.lengths.iter().enumerate().map(|(i, length)| length * z.row(i).norm());
     let largest = moved.fold(f64::MIN_POSITIVE, f64::max);
     let mut weights: Vec<f64> = inertia.masses.iter().map(|mass| mass.max(0.0).sqrt()).collect();

@@ -1,7 +1,9 @@
 //! A method of linearization: its request, its result and its entry in the registry.
 
 use super::input_states::{InputStates, primed};
-use super::{Changes, Chart, Coordinates, Cost, Frame, LinearModel, Matrix, Mode, Reduction, Reference, Variation};
+use super::{
+    Changes, Chart, Coordinates, Cost, LinearModel, Matrix, Mode, ModelFrame, Reduction, Reference, Variation,
+};
 use crate::error::Result;
 use crate::method_spec::{MethodSpec, OptionDoc};
 use crate::system::Dimensions;
@@ -34,7 +36,7 @@ impl Linear {
 }
 
 /// The matrices of E x' = A x + B u, y = C x + D u, without the states of inputs, whose columns stand apart.
-pub struct Built {
+pub struct LinearMatrices {
     /// Name of the chart.
     pub chart: String,
     /// Names of the states x.
@@ -59,7 +61,7 @@ pub struct Built {
     pub infinite: usize,
 }
 
-impl Built {
+impl LinearMatrices {
     /// A descriptor form in (dq, dv, ..) has a dq for each direction of v. Those of the states xi, their integrals, act
     /// on nothing and are left out.
     pub(super) fn without_integrals(mut self, n: Dimensions) -> Self {
@@ -73,7 +75,7 @@ impl Built {
         let c = self.c.remove_columns(first, count);
         let a = self.input_states.a.remove_rows(first, count);
         let input_states = InputStates { a, ..self.input_states };
-        Built { a: square(self.a), e: self.e.map(square), b, c, input_states, changes, ..self }
+        LinearMatrices { a: square(self.a), e: self.e.map(square), b, c, input_states, changes, ..self }
     }
 
     /// Adds the states of the inputs to the model, as its last states, and renames its inputs to the derivatives that they are.
@@ -117,9 +119,11 @@ impl Built {
     ) -> LinearModel {
         let (mut inputs, outputs) = variation.names();
         self.add_input_states(&mut inputs);
-        let Built { chart, states, a, b, c, d, e, input_states: InputStates { orders, .. }, coordinates, .. } = self;
+        let LinearMatrices {
+            chart, states, a, b, c, d, e, input_states: InputStates { orders, .. }, coordinates, ..
+        } = self;
         let state = Reference::new(variation.system(), &variation.point, coordinates.as_ref());
-        let frame = coordinates.map(|coordinates| Frame::new(variation, coordinates, &orders));
+        let frame = coordinates.map(|coordinates| ModelFrame::new(variation, coordinates, &orders));
         let point = variation.point.clone();
         let reduction = Reduction::default();
         LinearModel {
@@ -158,5 +162,5 @@ pub struct LinearizationMethod {
     /// Options that it takes.
     pub options: &'static [OptionDoc],
     /// Builds the matrices at the state of a variation.
-    pub build: fn(&mut Variation, &Linear) -> Result<Built>,
+    pub build: fn(&mut Variation, &Linear) -> Result<LinearMatrices>,
 }

@@ -1,6 +1,6 @@
 //! The least norm of transition matrices over the units of their states.
 
-type Matrix = nalgebra::DMatrix<f64>;
+use crate::math::eigen::Matrix;
 
 /// min over s of the largest norm of diag(1, 1/s) X diag(1, s), and of that of the start, 1. It is convex in log s:
 /// Sezginer, Overton, IEEE Trans. Automatic Control 35 (1990) 229-230.

@@ -1,6 +1,6 @@
 //! The registry of methods of linearization, and the linear model by one of them.
 
-use super::entry::{Built, Linear, LinearizationMethod};
+use super::entry::{Linear, LinearMatrices, LinearizationMethod};
 use super::minimal::MCS;
 use super::slopes::{ModelRate, Slope};
 use super::spectrum::{Spectrum, spectrum};
@@ -93,7 +93,7 @@ impl Variation<'_> {
 ///
 /// # Errors
 /// An unknown method or option; a chart that does not exist there.
-pub(super) fn build(variation: &mut Variation, request: &Linear) -> Result<Built> {
+pub(super) fn build(variation: &mut Variation, request: &Linear) -> Result<LinearMatrices> {
     let entry = request.method.entry::<LinearizationMethod>()?;
     if variation.has_drivers() {
         variation.prescribed()?;
@@ -103,7 +103,7 @@ pub(super) fn build(variation: &mut Variation, request: &Linear) -> Result<Built
 
 /// A model with its eigenvectors.
 pub(super) struct Solved {
-    pub built: Built,
+    pub built: LinearMatrices,
     pub spectrum: Spectrum,
     reduction: Reduction,
     cost: Cost,
@@ -131,7 +131,7 @@ pub(super) fn solve(variation: &mut Variation, request: &Linear) -> Result<Solve
 impl Solved {
     /// Returns the derivatives of the finite modes, where there are left vectors and models beside this one; see
     /// [`ModelRate::new`].
-    pub fn slopes(&self, steps: &[f64], model: impl FnMut(f64) -> Result<Built>) -> Vec<Slope> {
+    pub fn slopes(&self, steps: &[f64], model: impl FnMut(f64) -> Result<LinearMatrices>) -> Vec<Slope> {
         let Spectrum { vectors, modes, .. } = &self.spectrum;
         let Some(vectors) = vectors else { return Vec::new() };
         ModelRate::new(&self.built, steps, model).map_or_else(Vec::new, |rate| rate.slopes(vectors, modes))

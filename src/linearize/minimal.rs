@@ -1,7 +1,7 @@
 //! Minimal coordinates (MCS): the model in a chart of the directions that the constraints allow.
 
 use super::changes::beside;
-use super::entry::{Built, LinearizationMethod};
+use super::entry::{LinearMatrices, LinearizationMethod};
 use super::input_states::InputStates;
 use super::perturbation::{ColumnBlocks, Perturbation};
 use super::response::observe;
@@ -13,7 +13,7 @@ pub struct Minimal {
     /// The chart.
     pub coordinates: Coordinates,
     /// The model.
-    pub built: Built,
+    pub built: LinearMatrices,
 }
 
 /// Minimal coordinates: see [`minimal`].
@@ -67,7 +67,18 @@ pub(super) fn restrict(
     let d = outputs.inputs;
     let Coordinates { name: chart, states, .. } = coordinates.clone();
     let chart_of_model = Some(coordinates.clone());
-    let built =
-        Built { chart, states, a, b, c, d, e: None, input_states, changes, coordinates: chart_of_model, infinite: 0 };
+    let built = LinearMatrices {
+        chart,
+        states,
+        a,
+        b,
+        c,
+        d,
+        e: None,
+        input_states,
+        changes,
+        coordinates: chart_of_model,
+        infinite: 0,
+    };
     Ok(Minimal { coordinates, built })
 }

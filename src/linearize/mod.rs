@@ -54,7 +54,7 @@ mod visible;
 #[doc(hidden)]
 pub use against::{Against, against, both};
 pub(crate) use against::{Fate, branch_places};
-pub(crate) use along::Carried;
+pub(crate) use along::CarriedChart;
 pub use along::{Along, Deviation, MeasuredA, along, within};
 #[doc(hidden)]
 pub use amplification::amplified;
@@ -67,7 +67,7 @@ pub use comparison::{Comparison, compare};
 #[doc(hidden)]
 pub use coordinates::{Coordinates, parallel};
 #[doc(hidden)]
-pub use entry::Built;
+pub use entry::LinearMatrices;
 pub use entry::{Linear, LinearizationMethod};
 #[doc(hidden)]
 pub use floquet::Defect;
@@ -85,8 +85,8 @@ pub(crate) use method::refuse_large;
 pub use method::{linearize, registry};
 #[doc(hidden)]
 pub use minimal::{Minimal, minimal};
-pub(crate) use model::Pair;
-pub use model::{Complex, Cost, Frame, Kind, LinearModel, Mode, Reduction};
+pub(crate) use model::ModePair;
+pub use model::{Complex, Cost, Kind, LinearModel, Mode, ModelFrame, Reduction};
 #[doc(hidden)]
 pub use model::{are_conjugate, damping, frequency, pairs};
 use perturbation::Perturbation;

@@ -43,7 +43,7 @@ pub struct LinearModel {
     pub modes: Vec<Mode>,
     /// The chart with what the outputs and rates are at the state; none of methods without minimal coordinates.
     #[doc(hidden)]
-    pub frame: Option<Frame>,
+    pub frame: Option<ModelFrame>,
     /// The state that is perturbed, as the reference of a controller.
     pub state: Reference,
     /// The state that is perturbed, with its accelerations and multipliers.
@@ -58,7 +58,7 @@ pub struct LinearModel {
 
 /// The relation of a model's states and outputs to those of the mechanism: dq = R z, dv = R y + T z.
 #[derive(Clone, Debug)]
-pub struct Frame {
+pub struct ModelFrame {
     /// The chart, with R and T.
     pub coordinates: Coordinates,
     /// q' = N(q) v, n_q.
@@ -69,7 +69,7 @@ pub struct Frame {
     pub units: Units,
 }
 
-impl Frame {
+impl ModelFrame {
     /// The frame of a chart at the state of `variation`, of a model with derivatives of inputs of these orders.
     pub(super) fn new(variation: &mut Variation, coordinates: Coordinates, orders: &[usize]) -> Self {
         let system = variation.system();
@@ -78,7 +78,7 @@ impl Frame {
         let mut outputs = vec![0.0; system.facts().outputs.len()];
         system.outputs(variation.point.at(), &mut outputs, &mut variation.dynamics.scratch);
         let units = Units::new(system, &coordinates, orders);
-        Frame { coordinates, qdot, outputs, units }
+        ModelFrame { coordinates, qdot, outputs, units }
     }
 }
 
@@ -223,7 +223,7 @@ pub fn damping(value: Complex<f64>) -> f64 {
 
 /// A real eigenvalue, or the one with the positive imaginary part of a conjugate pair.
 #[derive(Clone, Copy, Debug)]
-pub struct Pair<'a> {
+pub struct ModePair<'a> {
     /// The mode.
     pub mode: &'a Mode,
     /// True for a conjugate pair.
@@ -231,7 +231,7 @@ pub struct Pair<'a> {
 }
 
 /// Returns the finite eigenvalues of a kind in their order, each pair once.
-pub fn pairs(model: &LinearModel, kind: Kind) -> Vec<Pair<'_>> {
+pub fn pairs(model: &LinearModel, kind: Kind) -> Vec<ModePair<'_>> {
     let modes: Vec<&Mode> = model.modes.iter().filter(|mode| mode.kind == kind).collect();
     let mut is_taken = vec![false; modes.len()];
     let mut found = Vec::new();
@@ -244,7 +244,7 @@ pub fn pairs(model: &LinearModel, kind: Kind) -> Vec<Pair<'_>> {
             is_taken[j] = true;
         }
         let upper = partner.filter(|&j| modes[j].value.im > modes[i].value.im).unwrap_or(i);
-        found.push(Pair { mode: modes[upper], is_pair: partner.is_some() });
+        found.push(ModePair { mode: modes[upper], is_pair: partner.is_some() });
     }
     found
 }

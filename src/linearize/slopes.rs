@@ -1,14 +1,12 @@
 //! Derivatives of eigenvalues by left and right vectors and the derivative of the model.
 
 use super::changes::beside;
-use super::entry::Built;
+use super::entry::LinearMatrices;
 use super::spectrum::Vectors;
 use super::{Complex, Matrix, Mode};
 use crate::error::Result;
 use crate::math::eigen::{ComplexMatrix, times};
 use crate::tolerances::{DEFECTIVE_MODE, EIGENVALUES_AGREE};
-
-type C = Complex<f64>;
 
 /// The derivative of an eigenvalue with respect to a parameter or to time. As JSON its parts are `d_re`, `d_im` and
 /// `error`, null without a derivative.
@@ -48,7 +46,11 @@ impl ModelRate {
     /// h^2, which are extrapolated to zero (Richardson).
     ///
     /// Parameters are folded into the numbers of a scene when it is read, so no dual numbers pass through them.
-    pub fn new(here: &Built, steps: &[f64], mut model: impl FnMut(f64) -> Result<Built>) -> Option<Self> {
+    pub fn new(
+        here: &LinearMatrices,
+        steps: &[f64],
+        mut model: impl FnMut(f64) -> Result<LinearMatrices>,
+    ) -> Option<Self> {
         let mut row = Vec::new();
         for step in steps {
             let above = in_states_of(here, &model(*step).ok()?)?;
@@ -102,7 +104,7 @@ fn push(rate: &Matrix, right: &ComplexMatrix, modes: &[Mode]) -> ComplexMatrix {
 }
 
 /// The derivative of mode `i`, one of those `equal` to it.
-fn among_equal(left: &ComplexMatrix, pushed: &ComplexMatrix, equal: &[usize], i: usize) -> Option<C> {
+fn among_equal(left: &ComplexMatrix, pushed: &ComplexMatrix, equal: &[usize], i: usize) -> Option<Complex<f64>> {
     let product = |i: usize, j: usize| left.column(i).dotc(&pushed.column(j));
     if equal.len() < 2 {
         return Some(product(i, i));
@@ -114,7 +116,7 @@ fn among_equal(left: &ComplexMatrix, pushed: &ComplexMatrix, equal: &[usize], i:
 
 /// Returns [A E], or A, of another model in the states of a chart `here`: changes of q and v that the other state allows
 /// are counted as this chart counts them.
-fn in_states_of(here: &Built, other: &Built) -> Option<Matrix> {
+fn in_states_of(here: &LinearMatrices, other: &LinearMatrices) -> Option<Matrix> {
     let a = match &here.coordinates {
         Some(chart) => {
             let to = chart.states_of(&other.changes);

@@ -1,6 +1,6 @@
 //! Eigenvalues of a model, classed as physical, spurious and infinite.
 
-use super::entry::{Built, Linear};
+use super::entry::{Linear, LinearMatrices};
 use super::{Complex, Kind, Matrix, Mode, Variation, displacement};
 use crate::error::{Error, Result, clock};
 use crate::math::eigen::{ComplexMatrix, Deflation, Eigen, Split, Unsolved, eigen, finite, generalized, times};
@@ -47,7 +47,7 @@ pub(super) struct Spectrum {
 }
 
 /// Returns all modes of a model.
-pub(super) fn spectrum(variation: &mut Variation, built: &Built, request: &Linear) -> Result<Spectrum> {
+pub(super) fn spectrum(variation: &mut Variation, built: &LinearMatrices, request: &Linear) -> Result<Spectrum> {
     let t = variation.point.t;
     let solved = solve(built, request).map_err(|unsolved| refused(t, &unsolved))?;
     let shapes = times(&built.shapes(variation.system().dimensions()), &solved.right);
@@ -72,7 +72,10 @@ pub(super) fn spectrum(variation: &mut Variation, built: &Built, request: &Linea
 
 /// Returns the modes of a model without E all of which are physical, their vectors in its states, and the condition
 /// number of these.
-pub(super) fn modes_of(variation: &Variation, built: &Built) -> Result<(Vec<Mode>, ComplexMatrix, f64), Unsolved> {
+pub(super) fn modes_of(
+    variation: &Variation,
+    built: &LinearMatrices,
+) -> Result<(Vec<Mode>, ComplexMatrix, f64), Unsolved> {
     let solved = solve_plain(built)?;
     let shapes = times(&built.shapes(variation.system().dimensions()), &solved.right);
     let weighed = weighed(variation, &shapes);
@@ -91,7 +94,7 @@ fn weighed(variation: &Variation, shapes: &ComplexMatrix) -> ComplexMatrix {
 /// The modes with their shapes, and these times M.
 fn modes(
     variation: &Variation,
-    built: &Built,
+    built: &LinearMatrices,
     solved: &Solved,
     shapes: &ComplexMatrix,
     weighed: &ComplexMatrix,
@@ -151,13 +154,13 @@ fn rounded(variation: &Variation, mode: Mode, error: f64) -> Mode {
 }
 
 /// Solves a model without E.
-fn solve_plain(built: &Built) -> Result<Solved, Unsolved> {
+fn solve_plain(built: &LinearMatrices) -> Result<Solved, Unsolved> {
     let Eigen { values, right, left, conditioning, errors, conditions } = eigen(&built.a)?;
     let participation = Some(parts(&left, &right));
     Ok(Solved { values, participation, right, left: Some(left), conditioning, errors, conditions })
 }
 
-fn solve(built: &Built, request: &Linear) -> Result<Solved, Unsolved> {
+fn solve(built: &LinearMatrices, request: &Linear) -> Result<Solved, Unsolved> {
     let Some(e) = &built.e else { return solve_plain(built) };
     let by = match request.method.text("solver") {
         Some("qz") => {

@@ -4,7 +4,7 @@ use super::found::StateResult;
 use super::method::{build, solve};
 use super::states::{Walk, follow};
 use super::thresholds::{self, Threshold};
-use super::variants::{At, Models, SLOPE_STEP, Sensitivity, Variants};
+use super::variants::{At, SLOPE_STEP, Sensitivity, VariantModels, Variants};
 use super::{Branch, Linear, LinearizationPoint, LociPoint, Operating, State, Variation, track};
 use crate::error::{Error, Result, Warning};
 use crate::prepared::Model;
@@ -80,7 +80,7 @@ pub struct Gap {
     pub error: Error,
 }
 
-type Outcome = (f64, Result<StateResult>);
+type TimedResult = (f64, Result<StateResult>);
 
 /// Returns the eigenvalues at `times` (increasing) of the scene's motion; `progress` is called for each. Where the
 /// motion cannot go on, the later times are gaps. Where the matching of modes is not clear, states between the times
@@ -97,7 +97,7 @@ pub fn loci_along<'a>(prepared: &'a Model, request: &Linear, times: &[f64], prog
     let outcome = |previous: &mut Option<Variation<'a>>, (t, state): (f64, Result<State>)| {
         (t, state.and_then(|state| eigenvalues_after(previous, prepared, state, t, request, &steps)))
     };
-    let outcomes: Vec<Outcome> = states.into_par_iter().map_init(|| None, outcome).collect();
+    let outcomes: Vec<TimedResult> = states.into_par_iter().map_init(|| None, outcome).collect();
     let between = |before: &StateResult, t: f64| {
         let state = follow(prepared, &before.state, t)?;
         eigenvalues_at(&mut state.variation(prepared)?, prepared, state, t, request, &[])
@@ -167,9 +167,9 @@ fn move_along(variation: &mut Variation, point: &LinearizationPoint, step: f64) 
 /// A parameter that the scene does not have.
 pub fn loci_over(variants: &Variants, at: At, request: &Linear, progress: impl Fn() + Sync) -> Result<Loci> {
     let own = variants.family.own_value(&variants.range.parameter)?;
-    let models = Models { variants, at, request };
+    let models = VariantModels { variants, at, request };
     let values = variants.range.values();
-    let outcomes: Vec<Outcome> = if at == At::Equilibrium {
+    let outcomes: Vec<TimedResult> = if at == At::Equilibrium {
         let distance = |i: &usize| (values[*i] - own).abs();
         let middle = (0..values.len()).min_by(|a, b| distance(a).total_cmp(&distance(b))).unwrap_or(0);
         let (before, after) = values.split_at(middle);
@@ -185,7 +185,7 @@ pub fn loci_over(variants: &Variants, at: At, request: &Linear, progress: impl F
     let nearest = outcomes.iter().filter_map(|(_, outcome)| outcome.as_ref().ok());
     let nearest = nearest.min_by(|a, b| (a.sample.at - own).abs().total_cmp(&(b.sample.at - own).abs()));
     let sensitivity = nearest.and_then(|nearest| models.sensitivity(own, Some(&nearest.state.q)));
-    let located = |pair: &[Outcome]| match (&pair[0].1, &pair[1].1) {
+    let located = |pair: &[TimedResult]| match (&pair[0].1, &pair[1].1) {
         // At a time each model takes a simulation.
         (Ok(before), Ok(after)) if !matches!(at, At::Time(_)) => thresholds::between(before, after, &between),
         _ => Vec::new(),
@@ -197,11 +197,11 @@ pub fn loci_over(variants: &Variants, at: At, request: &Linear, progress: impl F
 
 /// Equilibria from value to value, the first from that of the scene at the value `behind`.
 fn at_rest_along<'v>(
-    models: &Models,
+    models: &VariantModels,
     values: impl Iterator<Item = &'v f64>,
     behind: Option<&f64>,
     progress: &(impl Fn() + Sync),
-) -> Vec<Outcome> {
+) -> Vec<TimedResult> {
     let mut guess = behind.and_then(|&value| models.equilibrium(value).ok());
     let mut outcomes = Vec::new();
     for &value in values {
@@ -237,11 +237,11 @@ fn refined(
 /// Returns branches and gaps of the outcomes; `between` gives the state that follows one, at another time or value.
 fn collect(
     along: LociVariable,
-    outcomes: Vec<Outcome>,
+    outcomes: Vec<TimedResult>,
     between: impl Fn(&StateResult, f64) -> Result<StateResult> + Sync,
 ) -> Loci {
     let places: Vec<f64> = outcomes.iter().map(|(at, _)| *at).collect();
-    let behind = |pair: &[Outcome]| match (&pair[0].1, &pair[1].1) {
+    let behind = |pair: &[TimedResult]| match (&pair[0].1, &pair[1].1) {
         (Ok(before), Ok(after)) => {
             let halvings =
                 // Each costs a model.

@@ -50,13 +50,13 @@ pub struct Sensitivity {
 }
 
 /// The linear models of the scenes, each at its state.
-pub(super) struct Models<'a> {
+pub(super) struct VariantModels<'a> {
     pub variants: &'a Variants<'a>,
     pub at: At,
     pub request: &'a Linear,
 }
 
-impl Models<'_> {
+impl VariantModels<'_> {
     /// Applies a function to the scene with a value of the parameter at its state; an equilibrium is sought near `guess`.
     fn operate<T>(&self, value: f64, guess: Option<&[f64]>, then: impl FnOnce(&Operating) -> Result<T>) -> Result<T> {
         let Variants { family, overrides, range } = self.variants;

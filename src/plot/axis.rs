@@ -54,7 +54,7 @@ fn least_span(low: f64, high: f64) -> f64 {
 
 /// A scale with its limits and marks; limits of a logarithmic one are decimal logarithms.
 #[derive(Clone, Debug, Default)]
-pub(super) struct Axis {
+pub(super) struct PlotAxis {
     pub spec: AxisSpec,
     pub low: f64,
     pub high: f64,
@@ -62,7 +62,7 @@ pub(super) struct Axis {
     pub label: Label,
 }
 
-impl Axis {
+impl PlotAxis {
     /// An axis that shows all values which have a place on its scale, without marks.
     pub fn new(spec: &AxisSpec, values: impl Iterator<Item = f64>, margin: Option<f64>) -> Self {
         let is_on_scale = |value: &f64| value.is_finite() && (*value > 0.0 || !spec.is_log);
@@ -98,7 +98,7 @@ impl Axis {
     }
 }
 
-impl Ranged for Axis {
+impl Ranged for PlotAxis {
     type FormatOption = NoDefaultFormatting;
     type ValueType = f64;
 
@@ -121,7 +121,7 @@ impl Ranged for Axis {
     }
 }
 
-impl ValueFormatter<f64> for Axis {
+impl ValueFormatter<f64> for PlotAxis {
     fn format_ext(&self, value: &f64) -> String {
         let tick = self.ticks.major.iter().find(|tick| tick.0 == *value);
         tick.map_or_else(String::new, |tick| tick.1.clone())
@@ -132,8 +132,8 @@ impl ValueFormatter<f64> for Axis {
 mod tests {
     use super::*;
 
-    fn axis(spec: AxisSpec, values: &[f64]) -> Axis {
-        Axis::new(&spec, values.iter().copied(), Some(0.0))
+    fn axis(spec: AxisSpec, values: &[f64]) -> PlotAxis {
+        PlotAxis::new(&spec, values.iter().copied(), Some(0.0))
     }
 
     #[test]

@@ -36,7 +36,7 @@ pub(super) fn series(page: &Page, placed: &PlacedPanel, count: usize) -> Done {
     let lines = all.iter().filter_map(|(look, runs)| Some(lines(placed, look.line?, runs, count)));
     let (restless, calm): (Vec<_>, Vec<_>) = lines.partition(|(is_restless, ..)| *is_restless);
     for (_, stroke, parts) in restless.into_iter().chain(calm) {
-        parts.into_iter().try_for_each(|part| page.draw(&Curve(part, stroke)))?;
+        parts.into_iter().try_for_each(|part| page.draw(&StrokedLine(part, stroke)))?;
     }
     all.iter().try_for_each(|(look, runs)| markers(page, placed, look, runs, count))
 }

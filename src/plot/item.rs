@@ -24,7 +24,7 @@ impl Spot {
 
     /// Returns its position in the picture; none if it is not a number.
     pub(super) fn put(&self, placed: &PlacedPanel) -> Option<Pt> {
-        let place = |axis: &Axis, value: f64| match value {
+        let place = |axis: &PlotAxis, value: f64| match value {
             f64::INFINITY => Some(1.0),
             f64::NEG_INFINITY => Some(0.0),
             _ => axis.place(value),
@@ -46,7 +46,7 @@ pub enum Tint {
 }
 
 #[derive(Clone, Debug, PartialEq)]
-pub enum Form {
+pub enum ItemForm {
     /// A line of a width in pixels through the points; true if it is dashed.
     Line(f64, bool),
     /// A convex polygon without an outline, of an opacity: 1 hides the items below.
@@ -66,7 +66,7 @@ pub struct Item {
     /// Its points, one for discs and texts.
     pub spots: Vec<Spot>,
     pub tint: Tint,
-    pub form: Form,
+    pub form: ItemForm,
 }
 
 impl Item {
@@ -75,14 +75,14 @@ impl Item {
         let center = points.iter().copied().find(|point| within.contains(*point));
         let corners: Vec<Pt> = points.iter().map(|point| within.nearest(*point)).collect();
         match (&self.form, center) {
-            (Form::Line(width, dashed), _) => {
+            (ItemForm::Line(width, dashed), _) => {
                 let stroke = Stroke { color, width: *width, dash: if *dashed { DASHED } else { &[] } };
-                clipped(points, within.ends()).into_iter().try_for_each(|part| page.draw(&Curve(part, stroke)))
+                clipped(points, within.ends()).into_iter().try_for_each(|part| page.draw(&StrokedLine(part, stroke)))
             }
-            (Form::Area(opacity), _) => page.draw(&Polygon::new(corners, color.mix(*opacity))),
-            (Form::Cell, _) => page.draw(&Rectangle::new([corners[0], corners[2]], color.filled())),
-            (Form::Disc(radius), Some(at)) => Marker::Circle.draw(page, at, *radius, color),
-            (Form::Text(text, align), Some((x, y))) => {
+            (ItemForm::Area(opacity), _) => page.draw(&Polygon::new(corners, color.mix(*opacity))),
+            (ItemForm::Cell, _) => page.draw(&Rectangle::new([corners[0], corners[2]], color.filled())),
+            (ItemForm::Disc(radius), Some(at)) => Marker::Circle.draw(page, at, *radius, color),
+            (ItemForm::Text(text, align), Some((x, y))) => {
                 page.draw(&words(text, (x, y - HALF_DIGIT * NOTE_SIZE), Font(NOTE_SIZE, color, *align)))
             }
             _ => Ok(()),

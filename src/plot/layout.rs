@@ -9,10 +9,10 @@ const STRIP: f64 = 22.0;
 /// A panel with its axes, and the room that it needs.
 pub(super) struct PlacedPanel<'a> {
     pub panel: &'a Panel,
-    pub x: Axis,
-    pub y: Axis,
+    pub x: PlotAxis,
+    pub y: PlotAxis,
     /// The axis of the colour bar, if anything is coloured.
-    pub bar: Option<Axis>,
+    pub bar: Option<PlotAxis>,
     pub looks: Vec<Look>,
     /// The rectangle between the axes; before it is drawn only its size counts.
     pub frame: Rect,
@@ -31,9 +31,9 @@ impl<'a> PlacedPanel<'a> {
         let mut colors = panel.items.iter().filter_map(value).peekable();
         Self {
             panel,
-            x: Axis::new(&panel.x, group.iter().flat_map(points).map(|point| point.0), margin),
-            y: Axis::new(&panel.y, points(panel).map(|point| point.1), Some(margin.unwrap_or(0.0).max(0.06))),
-            bar: colors.peek().is_some().then(|| Axis::new(&panel.colors, colors, None)),
+            x: PlotAxis::new(&panel.x, group.iter().flat_map(points).map(|point| point.0), margin),
+            y: PlotAxis::new(&panel.y, points(panel).map(|point| point.1), Some(margin.unwrap_or(0.0).max(0.06))),
+            bar: colors.peek().is_some().then(|| PlotAxis::new(&panel.colors, colors, None)),
             looks: looks(&panel.series),
             frame: Rect::default(),
             margins: (0.0, 0.0),

@@ -50,7 +50,7 @@ impl Block {
             for (row, (label, look)) in entries.iter().enumerate() {
                 let at = |right: f64| (left + right, corner.1 + PADDING - 1.0 + ROW * (row as f64 + 0.5));
                 if let Some(stroke) = look.line {
-                    page.draw(&Curve(vec![at(0.0), at(self.sample)], stroke))?;
+                    page.draw(&StrokedLine(vec![at(0.0), at(self.sample)], stroke))?;
                 }
                 if let Some(marker) = look.marker {
                     marker.draw(page, at(0.5 * self.sample), MARKER_RADIUS, look.color)?;

@@ -27,18 +27,18 @@ mod text;
 mod ticks;
 
 pub use figure::{Animation, Figure};
-pub use item::{Form, Item, Spot, Tint};
+pub use item::{Item, ItemForm, Spot, Tint};
 pub use panel::{AxisSpec, Panel, Series, Style};
 pub use shape::Align;
 
-use axis::Axis;
+use axis::PlotAxis;
 use data::Marker;
 use layout::PlacedPanel;
 use palette::*;
 use plotters::element::{Circle, Cross, Polygon, Rectangle};
 use plotters::style::Color as _;
 use shape::{Color, Drawing, Font, Paint, Pt, Rect, Shape, Stroke, Text, is_closed};
-use sketch::{Chart, Curve, Done, Page, font, line, units, words};
+use sketch::{Done, Page, PlotChart, StrokedLine, font, line, units, words};
 use text::{HALF_DIGIT, LINE_HEIGHT, Label, Rich};
 
 #[cfg(all(test, feature = "figures"))]

@@ -9,7 +9,7 @@ const AROUND: [(f64, f64); 8] =
 /// Draws the notes of a panel, each at the place where it hides least, inside of the frame if possible.
 pub(super) fn draw(page: &Page, placed: &PlacedPanel, taken: &mut Vec<Pt>) -> Done {
     for item in &placed.panel.items {
-        let (Form::Note(text), [spot]) = (&item.form, &item.spots[..]) else { continue };
+        let (ItemForm::Note(text), [spot]) = (&item.form, &item.spots[..]) else { continue };
         let Some((x, y)) = spot.put(placed).filter(|at| placed.frame.contains(*at)) else { continue };
         let width = text::width(text, NOTE_SIZE);
         let around = |y: f64, distance: f64| {

@@ -1,6 +1,6 @@
 //! One panel: axes, and the data drawn between them.
 
-use super::{Form, Item, Spot, Tint};
+use super::{Item, ItemForm, Spot, Tint};
 
 /// Label, scale and limits of an axis. Made from its label: `"time (s)".into()`.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -119,7 +119,7 @@ impl Panel {
 
     /// Adds a text at the side of a point where it hides least.
     pub fn note(mut self, tint: Tint, x: f64, y: f64, text: impl Into<String>) -> Self {
-        self.items.push(Item { spots: vec![Spot::data(x, y)], tint, form: Form::Note(text.into()) });
+        self.items.push(Item { spots: vec![Spot::data(x, y)], tint, form: ItemForm::Note(text.into()) });
         self
     }
 

@@ -1,6 +1,6 @@
 //! Shapes, from which files are written. Coordinates are nominal pixels, y down.
 
-use super::sketch::Recorded;
+use super::sketch::DrawingResult;
 use super::text::Rich;
 use std::ops::Range;
 
@@ -140,7 +140,7 @@ impl Drawing {
     }
 
     /// Adds a line, a polygon or discs. Those of one style are one shape; texts between them hide nothing.
-    pub fn record(&mut self, paint: Paint, mut points: Vec<Pt>) -> Recorded {
+    pub fn record(&mut self, paint: Paint, mut points: Vec<Pt>) -> DrawingResult {
         if let Paint::Area(..) = paint {
             points.extend(points.first().copied());
             // Areas of one colour are filled together, where opposite senses would make holes.

@@ -16,10 +16,10 @@ const UNITS: f64 = 100.0;
 
 /// The end of an operation; a drawing refuses nothing.
 pub(super) type Done<T = ()> = Result<T, DrawingAreaErrorKind<Infallible>>;
-pub(super) type Recorded<T = ()> = Result<T, DrawingErrorKind<Infallible>>;
+pub(super) type DrawingResult<T = ()> = Result<T, DrawingErrorKind<Infallible>>;
 /// The paper, on which positions are nominal pixels.
 pub(super) type Page = DrawingArea<Drawing, Nominal>;
-pub(super) type Chart<'a> = ChartContext<'a, Drawing, Cartesian2d<Axis, Axis>>;
+pub(super) type PlotChart<'a> = ChartContext<'a, Drawing, Cartesian2d<PlotAxis, PlotAxis>>;
 
 pub(super) struct Nominal;
 
@@ -66,25 +66,29 @@ impl DrawingBackend for Drawing {
         (100_000_000, 100_000_000)
     }
 
-    fn ensure_prepared(&mut self) -> Recorded {
+    fn ensure_prepared(&mut self) -> DrawingResult {
         Ok(())
     }
 
-    fn present(&mut self) -> Recorded {
+    fn present(&mut self) -> DrawingResult {
         Ok(())
     }
 
     /// Charts have no single pixels.
-    fn draw_pixel(&mut self, _: BackendCoord, _: BackendColor) -> Recorded {
+    fn draw_pixel(&mut self, _: BackendCoord, _: BackendColor) -> DrawingResult {
         Ok(())
     }
 
-    fn draw_line<S: BackendStyle>(&mut self, from: BackendCoord, to: BackendCoord, style: &S) -> Recorded {
+    fn draw_line<S: BackendStyle>(&mut self, from: BackendCoord, to: BackendCoord, style: &S) -> DrawingResult {
         self.draw_path([from, to], style)
     }
 
     /// Draws a line of a grid, a mark or a frame, in the middle of pixels where it is parallel to an axis.
-    fn draw_path<S: BackendStyle, I: IntoIterator<Item = BackendCoord>>(&mut self, path: I, style: &S) -> Recorded {
+    fn draw_path<S: BackendStyle, I: IntoIterator<Item = BackendCoord>>(
+        &mut self,
+        path: I,
+        style: &S,
+    ) -> DrawingResult {
         let path: Vec<BackendCoord> = path.into_iter().collect();
         let mut line: Vec<Pt> = path.iter().copied().map(pixels).collect();
         for k in 1..path.len() {
@@ -97,7 +101,13 @@ impl DrawingBackend for Drawing {
         self.record(Paint::Line(Stroke { color: solid(style.color()), width, dash: &[] }), line)
     }
 
-    fn draw_rect<S: BackendStyle>(&mut self, from: BackendCoord, to: BackendCoord, style: &S, fill: bool) -> Recorded {
+    fn draw_rect<S: BackendStyle>(
+        &mut self,
+        from: BackendCoord,
+        to: BackendCoord,
+        style: &S,
+        fill: bool,
+    ) -> DrawingResult {
         let corners = [from, (to.0, from.1), to, (from.0, to.1), from];
         if !fill {
             return self.draw_path(corners, style);
@@ -105,16 +115,20 @@ impl DrawingBackend for Drawing {
         self.record(Paint::Area(solid(style.color()), 1.0, true), corners[..4].iter().copied().map(pixels).collect())
     }
 
-    fn draw_circle<S: BackendStyle>(&mut self, at: BackendCoord, radius: u32, style: &S, _: bool) -> Recorded {
+    fn draw_circle<S: BackendStyle>(&mut self, at: BackendCoord, radius: u32, style: &S, _: bool) -> DrawingResult {
         self.record(Paint::Disc(solid(style.color()), f64::from(radius) / UNITS), vec![pixels(at)])
     }
 
-    fn fill_polygon<S: BackendStyle, I: IntoIterator<Item = BackendCoord>>(&mut self, path: I, style: &S) -> Recorded {
+    fn fill_polygon<S: BackendStyle, I: IntoIterator<Item = BackendCoord>>(
+        &mut self,
+        path: I,
+        style: &S,
+    ) -> DrawingResult {
         let paint = Paint::Area(solid(style.color()), style.color().alpha, false);
         self.record(paint, path.into_iter().map(pixels).collect())
     }
 
-    fn draw_text<S: BackendTextStyle>(&mut self, text: &str, style: &S, at: BackendCoord) -> Recorded {
+    fn draw_text<S: BackendTextStyle>(&mut self, text: &str, style: &S, at: BackendCoord) -> DrawingResult {
         let align = [Align::Start, Align::End, Align::Middle][style.anchor().h_pos as usize];
         let font = Font(style.size() / UNITS, solid(style.color()), align);
         // All turned texts read upwards, also those of right axes, which plotters turns the other way.
@@ -138,15 +152,15 @@ impl DrawingBackend for Drawing {
         Ok(())
     }
 
-    fn estimate_text_size<S: BackendTextStyle>(&self, text: &str, style: &S) -> Recorded<(u32, u32)> {
+    fn estimate_text_size<S: BackendTextStyle>(&self, text: &str, style: &S) -> DrawingResult<(u32, u32)> {
         Ok((text::width(text, style.size()) as u32, style.size() as u32))
     }
 }
 
 /// A line that may be dashed, of which styles of plotters know nothing.
-pub(super) struct Curve(pub Vec<Pt>, pub Stroke);
+pub(super) struct StrokedLine(pub Vec<Pt>, pub Stroke);
 
-impl<'a> PointCollection<'a, Pt> for &'a Curve {
+impl<'a> PointCollection<'a, Pt> for &'a StrokedLine {
     type Point = &'a Pt;
     type IntoIter = &'a [Pt];
 
@@ -155,8 +169,8 @@ impl<'a> PointCollection<'a, Pt> for &'a Curve {
     }
 }
 
-impl Drawable<Drawing> for Curve {
-    fn draw<I: Iterator<Item = BackendCoord>>(&self, points: I, drawing: &mut Drawing, _: (u32, u32)) -> Recorded {
+impl Drawable<Drawing> for StrokedLine {
+    fn draw<I: Iterator<Item = BackendCoord>>(&self, points: I, drawing: &mut Drawing, _: (u32, u32)) -> DrawingResult {
         drawing.record(Paint::Line(self.1), points.map(pixels).collect())
     }
 }

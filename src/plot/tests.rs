@@ -36,7 +36,7 @@ fn panel(x: &str, y: &str) -> Panel {
 /// Adds a line of a sweep.
 fn vertical(panel: Panel, x: f64, text: &str) -> Panel {
     let spots = [f64::NEG_INFINITY, f64::INFINITY].map(|y| Spot::data(x, y)).to_vec();
-    panel.items([Item { spots, tint: Tint::Ink(0.3), form: Form::Line(1.5, true) }]).note(
+    panel.items([Item { spots, tint: Tint::Ink(0.3), form: ItemForm::Line(1.5, true) }]).note(
         Tint::Ink(0.25),
         x,
         f64::INFINITY,
@@ -46,14 +46,14 @@ fn vertical(panel: Panel, x: f64, text: &str) -> Panel {
 
 /// A point coloured by a value.
 fn dot(x: f64, y: f64, value: f64) -> Item {
-    Item { spots: vec![Spot::data(x, y)], tint: Tint::Value(value), form: Form::Disc(2.7) }
+    Item { spots: vec![Spot::data(x, y)], tint: Tint::Value(value), form: ItemForm::Disc(2.7) }
 }
 
 /// A cell of a map around a point.
 fn cell(x: f64, y: f64, value: f64) -> Item {
     let corners = [(-0.5, -0.5), (0.5, -0.5), (0.5, 0.5), (-0.5, 0.5)];
     let spots = corners.map(|(right, up)| Spot::data(x + right, y + up)).to_vec();
-    Item { spots, tint: Tint::Value(value), form: Form::Cell }
+    Item { spots, tint: Tint::Value(value), form: ItemForm::Cell }
 }
 
 /// A panel with texts along both axes, and colours from 1e-12 to 1.
@@ -233,13 +233,13 @@ fn spots(points: &Points) -> Vec<Spot> {
 /// Returns the items of a mechanism at these points.
 fn mechanism(points: &Points) -> Panel {
     let item = |spots, form| Item { spots, tint: Tint::Body(1, 0.3), form };
-    let line = item(spots(points), Form::Line(1.5, true));
-    let area = item(spots(points), Form::Area(0.5));
-    let discs = spots(points).into_iter().map(|spot| item(vec![spot], Form::Disc(4.0)));
-    let text = |spot| item(vec![spot], Form::Text("body".into(), Align::Start));
+    let line = item(spots(points), ItemForm::Line(1.5, true));
+    let area = item(spots(points), ItemForm::Area(0.5));
+    let discs = spots(points).into_iter().map(|spot| item(vec![spot], ItemForm::Disc(4.0)));
+    let text = |spot| item(vec![spot], ItemForm::Text("body".into(), Align::Start));
     let corner = Spot::data(f64::INFINITY, f64::INFINITY).moved(0.0, 9.0);
     let texts = spots(points).into_iter().chain([corner]).map(text);
-    let axis = item(vec![corner.moved(-40.0, -40.0), corner.moved(-20.0, -40.0)], Form::Line(1.0, false));
+    let axis = item(vec![corner.moved(-40.0, -40.0), corner.moved(-20.0, -40.0)], ItemForm::Line(1.0, false));
     let items = discs.chain([area, line, axis]).chain(texts);
     let keys = vec![("t = 0 s".into(), Tint::Ink(0.5))];
     Panel { equal_aspect: true, keys, ..Panel::new("x (m)", "y (m)") }.items(items)

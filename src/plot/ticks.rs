@@ -1,6 +1,6 @@
 //! Marks of an axis: multiples of 1, 2, 2.5 or 5 times a power of ten, powers of ten, or names.
 
-use super::{Axis, TICK_SIZE, text};
+use super::{PlotAxis, TICK_SIZE, text};
 
 /// Steps of angles, degrees.
 const ANGLES: [f64; 8] = [5.0, 15.0, 30.0, 45.0, 90.0, 180.0, 360.0, 720.0];
@@ -27,7 +27,7 @@ pub(super) struct Room {
 }
 
 impl Ticks {
-    pub fn new(axis: &Axis, room: Room) -> Self {
+    pub fn new(axis: &PlotAxis, room: Room) -> Self {
         if !axis.spec.names.is_empty() {
             return named(axis, room);
         }
@@ -50,7 +50,7 @@ impl Ticks {
 }
 
 /// Sets texts at 0, 1, 2 ..., thinned where there is no space.
-fn named(axis: &Axis, room: Room) -> Ticks {
+fn named(axis: &PlotAxis, room: Room) -> Ticks {
     let place = |value: f64| axis.place(value).unwrap_or(0.0);
     let all = || axis.spec.names.iter().enumerate().map(|(k, name)| (k as f64, name.clone()));
     let label = if room.is_upright { 1.05 * TICK_SIZE } else { Ticks::labelled(all()).widest() + TICK_SIZE };

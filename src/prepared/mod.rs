@@ -80,7 +80,7 @@ pub struct Model {
 }
 
 /// Outcome of a run, the methods used if they were chosen automatically, and a checkpoint to continue from.
-pub type Simulated = (Outcome, Vec<Leg>, Option<Checkpoint>);
+pub type RunResult = (Outcome, Vec<Leg>, Option<Checkpoint>);
 
 impl Model {
     /// Reads a scene, assembles it and resolves its settings.
@@ -224,7 +224,7 @@ impl Model {
     /// # Errors
     /// Bad input only: see [`simulate_from`](crate::simulate::simulate_from); a tolerance below the rounding of positions far from the origin.
     #[doc(hidden)]
-    pub fn simulate_from(&self, method: &Method, span: Span, start: Start, sink: &mut dyn Sink) -> Result<Simulated> {
+    pub fn simulate_from(&self, method: &Method, span: Span, start: Start, sink: &mut dyn Sink) -> Result<RunResult> {
         refuse_rounding(&self.mechanism, self.start().0, method)?;
         let (outcome, legs, next) = run_through(self.system(), &self.choice(method), span, start, sink)?;
         match start {

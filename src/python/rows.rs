@@ -1,6 +1,6 @@
 //! Output rows in memory that becomes an array of NumPy.
 
-use crate::analysis::{Record, Row};
+use crate::analysis::{OutputRow, Record};
 use numpy::PyArray2;
 use numpy::ndarray::Array2;
 use pyo3::exceptions::PyValueError;
@@ -39,7 +39,7 @@ pub struct RunRows {
 }
 
 impl RunRows {
-    pub fn add(&mut self, row: &Row) {
+    pub fn add(&mut self, row: &OutputRow) {
         self.values.add(row.values);
         self.drift.add(&row.drift);
         if let Some(ledger) = row.ledger {
@@ -50,7 +50,7 @@ impl RunRows {
     /// Adds all rows of a record that keeps them.
     pub fn add_all(&mut self, record: &Record) {
         for (i, (values, &drift)) in record.trajectory.rows.iter().zip(&record.drift_rows).enumerate() {
-            self.add(&Row { values, drift, ledger: record.ledger_rows.get(i).copied() });
+            self.add(&OutputRow { values, drift, ledger: record.ledger_rows.get(i).copied() });
         }
     }
 

@@ -1,6 +1,6 @@
 //! The report of `check`.
 
-use super::Table;
+use super::TextTable;
 use super::equilibrium::EquilibriumReport;
 use super::hints::hints_text;
 use super::table::{OutputValues, count, moves_text};
@@ -35,7 +35,7 @@ pub struct Check {
     /// Dependent rows of G, with their joints.
     pub redundant: Vec<Redundant>,
     assembly: Assembly,
-    start: Start,
+    start: AssembledStart,
     /// The reason why no simulation begins there.
     #[serde(skip_serializing_if = "Option::is_none")]
     refused: Option<Failure>,
@@ -66,7 +66,7 @@ pub struct Check {
 
 /// Rates and outputs at the assembled start.
 #[derive(Clone, Debug, Serialize)]
-struct Start {
+struct AssembledStart {
     /// max |v|, m/s and rad/s.
     velocity: f64,
     acceleration: f64,
@@ -113,7 +113,7 @@ fn inspect<const D: usize>(prepared: &prepared::Model, model: &Model<D>) -> Chec
         degrees_of_freedom: n.moving() - found.rank,
         redundant: found.redundant,
         assembly: prepared.assembly.clone(),
-        start: Start::of(prepared),
+        start: AssembledStart::of(prepared),
         refused: prepared.span().ok().and_then(|span| refused(system, &prepared.method, span, prepared.start())),
         condition: found.condition,
         distance_to_singularity: found.distance_to_singularity,
@@ -212,7 +212,7 @@ impl Check {
         ];
         for (heading, detail, items) in elements {
             if !items.is_empty() {
-                let mut table = Table::left(&[heading, "type", detail]);
+                let mut table = TextTable::left(&[heading, "type", detail]);
                 items.iter().for_each(|item| table.row([item.name.clone(), item.kind.clone(), item.detail.clone()]));
                 text += &format!("{table}\n");
             }
@@ -278,14 +278,14 @@ impl Check {
     }
 }
 
-impl Start {
-    fn of(prepared: &prepared::Model) -> Start {
+impl AssembledStart {
+    fn of(prepared: &prepared::Model) -> AssembledStart {
         let Assembly { q, v, vdot, lambda, .. } = &prepared.assembly;
         let at = OperatingPoint { t: prepared.start_time(), q, v, vdot, lambda };
         let moving = ..prepared.system().dimensions().moving();
         let velocity = largest(&v[moving]);
         let acceleration = largest(&vdot[moving]);
-        Start {
+        AssembledStart {
             velocity,
             acceleration,
             is_equilibrium: velocity == 0.0 && largest(vdot) < tolerances::SIX_DIGITS,

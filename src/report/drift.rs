@@ -2,7 +2,7 @@
 
 use super::error_bar::accuracy;
 use super::figures::{Ending, Floor, Shown, envelope};
-use super::{Answer, Folder, Table, cell, table};
+use super::{Answer, Folder, TextTable, cell, table};
 use crate::analysis::Drift;
 use crate::error::Result;
 use crate::plot::{AxisSpec, Figure, Panel, Series};
@@ -28,8 +28,17 @@ impl Answer for Stabilizations<'_> {
         let Stabilizations { prepared, runs: rows } = self;
         let Method { integrator, .. } = &prepared.method;
         let accuracy = accuracy(&prepared.method);
-        let mut table =
-            Table::new(&["", "max |φ|", "max |φ′|", "final |φ|", "final |φ′|", "energy error", "steps", "rhs", "ms"]);
+        let mut table = TextTable::new(&[
+            "",
+            "max |φ|",
+            "max |φ′|",
+            "final |φ|",
+            "final |φ′|",
+            "energy error",
+            "steps",
+            "rhs",
+            "ms",
+        ]);
         for row in rows {
             let Drift { position, velocity, .. } = &row.drift;
             let drift = [position.max, velocity.max, position.last, velocity.last].map(|value| format!("{value:.2e}"));

@@ -2,7 +2,7 @@
 
 use super::object;
 use super::table::{OutputValues, moves_text, named};
-use crate::analysis::Range;
+use crate::analysis::ValidityRange;
 use crate::error::{Warning, clock};
 use crate::initial::{Equilibrium, Move, Stability, Way};
 use crate::prepared::Model;
@@ -82,7 +82,7 @@ impl EquilibriumReport {
             t: found.t,
             lambda: OutputValues::new(names.lambda.iter().map(without_unit).collect(), found.lambda.clone()),
             outputs,
-            warnings: Range::warnings_at(system, found.t, &found.q),
+            warnings: ValidityRange::warnings_at(system, found.t, &found.q),
             found: Some(found),
             names,
             moving,

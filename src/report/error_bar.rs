@@ -1,6 +1,6 @@
 //! Text on the error of a run.
 
-use super::Table;
+use super::TextTable;
 use crate::error::significant;
 use crate::error::{Warning, clock, percent, short};
 use crate::simulate::Method;
@@ -31,7 +31,7 @@ pub fn text(method: &Method, bars: Option<&ErrorBars>) -> String {
 }
 
 fn table(bars: &ErrorBars) -> String {
-    let mut table = Table::new(&["error bar", "max", "final", ""]).words(3);
+    let mut table = TextTable::new(&["error bar", "max", "final", ""]).words(3);
     for (name, bar) in &bars.outputs {
         table.row([name.clone(), format!("±{:.1e}", bar.max), format!("±{:.1e}", bar.last), bar.unit.clone()]);
     }

@@ -24,7 +24,7 @@ pub struct FinishedRun {
 
 /// The part of a `summary.json` that is read.
 #[derive(Deserialize)]
-struct Saved {
+struct FinishedSummary {
     parameters: Map<String, Value>,
     failure: Option<Failure>,
     files: Vec<String>,
@@ -33,7 +33,7 @@ struct Saved {
     energy: Value,
 }
 
-impl Saved {
+impl FinishedSummary {
     /// Returns how the run ended. Null is what is not finite.
     fn ending(&self) -> Ending {
         let relative_max = self.drift["position"]["relative_max"].as_f64().unwrap_or(f64::NAN);
@@ -56,7 +56,7 @@ impl FinishedRun {
         let written = "name the folder that `holonom simulate` has written";
         let text = files::read_json(&summary)
             .map_err(|error| Error::input(error.to_string()).hint(written).in_file(&summary))?;
-        let saved: Saved = serde_json::from_str(&text).map_err(|error| {
+        let saved: FinishedSummary = serde_json::from_str(&text).map_err(|error| {
             Error::input(format!("it is no summary of a run: {error}")).hint(written).in_file(&summary)
         })?;
         let known = ["trajectory.csv", "trajectory.npz"];

@@ -1,7 +1,7 @@
 //! What looks superfluous or missing at the start, in words.
 
 use crate::error::{percent, short_list, significant};
-use crate::simplify::{Hints, Rod, Unseen};
+use crate::simplify::{Hints, RodForce, Unseen};
 use crate::tolerances::SAME;
 
 pub fn hints_text(hints: &Hints) -> String {
@@ -23,8 +23,8 @@ pub fn hints_text(hints: &Hints) -> String {
 }
 
 /// A line about the rods of this kind, with their forces at the start; empty where there is none.
-fn rods(what: &str, rods: &[Rod], is_of: impl Fn(&Rod) -> bool) -> String {
-    let force = |rod: &Rod| format!("{} by {} N", rod.name, significant(rod.at_start.abs(), 4));
+fn rods(what: &str, rods: &[RodForce], is_of: impl Fn(&RodForce) -> bool) -> String {
+    let force = |rod: &RodForce| format!("{} by {} N", rod.name, significant(rod.at_start.abs(), 4));
     let told: Vec<String> = rods.iter().filter(|rod| is_of(rod)).map(force).collect();
     if told.is_empty() { String::new() } else { format!("rods that {what}: {}\n", short_list(&told)) }
 }

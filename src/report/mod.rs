@@ -42,6 +42,6 @@ pub use study::StudyAnswer;
 pub use summary::{Summary, summarize};
 pub use sweep::SweepAnswer;
 pub use sweep_figure::SweepLook;
-pub use table::{OutputValues, Table};
+pub use table::{OutputValues, TextTable};
 pub use tables::{cell, table, trajectory_arrays};
 pub use warnings::uncertain_kinds;

@@ -2,7 +2,7 @@
 
 use super::files::{Folder, Stream};
 use super::tables::{header, line};
-use crate::analysis::{Record, Row};
+use crate::analysis::{OutputRow, Record};
 use crate::error::{Error, Result};
 use crate::simulate::Stop;
 
@@ -32,7 +32,7 @@ impl RowFiles {
         })
     }
 
-    pub fn add(&mut self, row: &Row) {
+    pub fn add(&mut self, row: &OutputRow) {
         let Some(&t) = row.values.first() else { return };
         self.trajectory.iter_mut().for_each(|file| line(file, row.values));
         let [position, velocity, acceleration] = row.drift;
@@ -45,7 +45,7 @@ impl RowFiles {
     /// Appends all rows of a record that keeps them.
     pub fn add_all(&mut self, record: &Record) {
         for (i, (values, &drift)) in record.trajectory.rows.iter().zip(&record.drift_rows).enumerate() {
-            self.add(&Row { values, drift, ledger: record.ledger_rows.get(i).copied() });
+            self.add(&OutputRow { values, drift, ledger: record.ledger_rows.get(i).copied() });
         }
     }
 

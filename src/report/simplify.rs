@@ -3,7 +3,7 @@
 use super::table::count;
 use super::tables::{TableColumn, by_columns, optional};
 use super::tradeoff::milliseconds;
-use super::{Answer, Folder, Table, cell};
+use super::{Answer, Folder, TextTable, cell};
 use crate::error::{Error, Result, percent, short_list};
 use crate::math::bounds;
 use crate::plot::{AxisSpec, Figure, Panel, Series, Style, Tint};
@@ -24,7 +24,7 @@ impl Answer for Simplification {
         };
         let mut text = format!("{scene}: within {} of the {size} of {}\n\n", percent(*within), short_list(outputs));
         text += &format!("{}\n", outcome(self));
-        let mut changes = Table::new(&["tried", "estimated", "measured", "CPU", "result"]).words(4);
+        let mut changes = TextTable::new(&["tried", "estimated", "measured", "CPU", "result"]).words(4);
         for (trial, run) in trials.iter().filter_map(|trial| Some((trial, trial.run.as_ref()?))) {
             let measured = run.worst().map_or("-".to_string(), |worst| percent(worst.error));
             let result = if trial.is_kept { "kept" } else { first_line(&trial.reason) };

@@ -3,7 +3,7 @@
 use super::study_figure::{coordinates_figure, scatter_figure, study_figure};
 use super::table::count;
 use super::tables::{cell, table};
-use super::{Answer, Folder, Table};
+use super::{Answer, Folder, TextTable};
 use crate::error::{Result, significant};
 #[cfg(feature = "npz")]
 use crate::files::Array;
@@ -102,7 +102,7 @@ impl StudyAnswer<'_> {
     }
 
     fn ranges(&self) -> String {
-        let mut table = Table::new(&["recorded", "", "min", "in row", "max", "in row"]).words(1);
+        let mut table = TextTable::new(&["recorded", "", "min", "in row", "max", "in row"]).words(1);
         for i in self.recorded() {
             let column = &self.table.columns[i];
             let cells = self.ends(i).into_iter().flat_map(|end| match end {

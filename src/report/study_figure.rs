@@ -3,7 +3,7 @@
 use super::figures::label;
 use crate::error::significant;
 use crate::math::bounds;
-use crate::plot::{Align, AxisSpec, Figure, Form, Item, Panel, Series, Spot, Style, Tint};
+use crate::plot::{Align, AxisSpec, Figure, Item, ItemForm, Panel, Series, Spot, Style, Tint};
 use crate::study::variants::{StudyRow, StudyTable};
 
 /// Largest number of parameters that are drawn.
@@ -33,7 +33,7 @@ pub fn scatter_figure(table: &StudyTable) -> Option<Figure> {
     }
     let panel = |(y, x): (usize, usize)| {
         let points = table.rows.values().map(|row| (row.values[x], row.values[y]));
-        let disc = |(x, y)| Item { spots: vec![Spot::data(x, y)], tint: Tint::Body(0, 0.0), form: Form::Disc(2.5) };
+        let disc = |(x, y)| Item { spots: vec![Spot::data(x, y)], tint: Tint::Body(0, 0.0), form: ItemForm::Disc(2.5) };
         let discs = points.filter(|(_, y)| y.is_finite()).map(disc);
         let plain = with_key(table, Panel::new(axis(table, x), recorded(table, y)).height(SCATTER));
         plain.items(discs).items(failures(table, |row| Spot::data(row.values[x], f64::NEG_INFINITY)))
@@ -63,7 +63,7 @@ pub fn coordinates_figure(table: &StudyTable) -> Option<Figure> {
             value if value.is_finite() => Tint::Value(value),
             _ => Tint::Ink(0.5),
         };
-        Item { spots, tint, form: Form::Line(1.0, !is_whole) }
+        Item { spots, tint, form: ItemForm::Line(1.0, !is_whole) }
     };
     let stride = table.rows.len().div_ceil(1000);
     let names: Vec<String> = columns.iter().map(|column| name(table, *column)).collect();
@@ -75,9 +75,9 @@ pub fn coordinates_figure(table: &StudyTable) -> Option<Figure> {
     // A number that no variant has is an axis without values.
     for (i, (low, high)) in ranges.iter().enumerate().filter(|(_, (low, high))| low <= high) {
         let at = |y: f64| Spot::data(i as f64, y);
-        let text = |value: f64| Form::Text(significant(value, 4).replace('-', "−"), Align::Middle);
+        let text = |value: f64| ItemForm::Text(significant(value, 4).replace('-', "−"), Align::Middle);
         panel = panel.items([
-            Item { spots: vec![at(0.0), at(1.0)], tint: Tint::Ink(0.2), form: Form::Line(1.4, false) },
+            Item { spots: vec![at(0.0), at(1.0)], tint: Tint::Ink(0.2), form: ItemForm::Line(1.4, false) },
             Item { spots: vec![at(0.0).moved(0.0, -16.0)], tint: Tint::Ink(0.0), form: text(*low) },
             Item { spots: vec![at(1.0).moved(0.0, 6.0)], tint: Tint::Ink(0.0), form: text(*high) },
         ]);
@@ -121,7 +121,8 @@ fn with_key(table: &StudyTable, mut panel: Panel) -> Panel {
 /// Returns a mark for each variant that failed.
 fn failures(table: &StudyTable, place: impl Fn(&StudyRow) -> Spot) -> Vec<Item> {
     let failed = table.rows.values().filter(|row| !row.failure.is_empty());
-    let mark = |row| Item { spots: vec![place(row)], tint: FAILED, form: Form::Text(MARK.to_string(), Align::Middle) };
+    let mark =
+        |row| Item { spots: vec![place(row)], tint: FAILED, form: ItemForm::Text(MARK.to_string(), Align::Middle) };
     failed.map(mark).collect()
 }
 
@@ -149,12 +150,12 @@ fn map(table: &StudyTable, column: usize) -> Panel {
     let item = |row: &StudyRow| {
         let tint = Tint::Value(row.values[column]);
         if !is_grid {
-            return Item { spots: vec![Spot::data(row.values[0], row.values[1])], tint, form: Form::Disc(4.0) };
+            return Item { spots: vec![Spot::data(row.values[0], row.values[1])], tint, form: ItemForm::Disc(4.0) };
         }
         let (left, right) = cell(&columns, row.values[0]);
         let (low, high) = cell(&rows, row.values[1]);
         let spots = [(left, low), (right, low), (right, high), (left, high)].map(|(x, y)| Spot::data(x, y)).to_vec();
-        Item { spots, tint, form: Form::Cell }
+        Item { spots, tint, form: ItemForm::Cell }
     };
     let done = table.rows.values().filter(|row| row.values[column].is_finite());
     panel = panel.items(done.map(item));

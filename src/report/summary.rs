@@ -2,7 +2,7 @@
 
 use super::table::{OutputValues, named};
 use super::warnings::{at_round_off, warnings};
-use super::{Origin, Table, error_bar};
+use super::{Origin, TextTable, error_bar};
 use crate::analysis::{Drift, EnergyBalance, Extremes, Passing, Record, Singularity};
 use crate::error::{Failure, Warning, clock, short_list, significant};
 use crate::formulation::Statistics;
@@ -174,7 +174,7 @@ impl Summary {
             };
         }
         text += &singular_text(&self.singularity);
-        let mut drift = Table::new(&["drift", "max", "final", "relative max"]);
+        let mut drift = TextTable::new(&["drift", "max", "final", "relative max"]);
         for (name, level) in [
             ("position |phi|", &self.drift.position),
             ("velocity |phi'|", &self.drift.velocity),
@@ -206,7 +206,7 @@ impl Summary {
             return String::new();
         }
         let last = format!("at t = {} s", clock(self.r#final.t));
-        let mut table = Table::new(&["output", &last, "min", "at s", "max", "at s", "rms", ""]).words(7);
+        let mut table = TextTable::new(&["output", &last, "min", "at s", "max", "at s", "rms", ""]).words(7);
         for (output, last) in self.outputs.iter().zip(self.r#final.outputs.values()) {
             let Extremes { name, unit, min, t_min, max, t_max, rms, .. } = output;
             let cell = |value: Option<f64>, digits| value.map_or("?".to_string(), |value| significant(value, digits));

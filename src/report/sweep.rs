@@ -3,9 +3,9 @@
 use super::sweep_figure::{SweepLook, sweep_figure};
 use super::table::named;
 use super::tables::{shown, sweep_table, watched};
-use super::{Answer, Folder, Table};
+use super::{Answer, Folder, TextTable};
 use crate::error::{Result, significant};
-use crate::sweep::{Limit, Nearest, Point, Range, Sweep};
+use crate::sweep::{BranchLimit, Nearest, Point, Range, Sweep};
 use crate::tolerances;
 use serde::Serialize;
 use serde_json::{Value, json};
@@ -38,7 +38,7 @@ struct ValueAt {
 impl Answer for SweepAnswer<'_> {
     fn json(&self) -> impl Serialize {
         let Sweep { scene, range, points, limits, own_value, nearest_singular, .. } = self.sweep;
-        let limit = |limit: &Limit| {
+        let limit = |limit: &BranchLimit| {
             json!({
                 "value": limit.point.value,
                 "within": limit.within,
@@ -48,7 +48,8 @@ impl Answer for SweepAnswer<'_> {
                 "outputs": named(self.sweep.outputs.iter().map(|output| &output.name), &limit.point.outputs),
             })
         };
-        let failure = |limit: &Limit| json!({ "value": limit.unreached, "reason": limit.reason, "hint": self.hint() });
+        let failure =
+            |limit: &BranchLimit| json!({ "value": limit.unreached, "reason": limit.reason, "hint": self.hint() });
         json!({
             "scene": scene,
             "parameter": range.parameter,
@@ -100,7 +101,7 @@ impl SweepAnswer<'_> {
     }
 
     fn ends(&self) -> Vec<String> {
-        let end = |Limit { point, unreached, reason, .. }: &Limit| {
+        let end = |BranchLimit { point, unreached, reason, .. }: &BranchLimit| {
             let parameter = &self.sweep.range.parameter;
             format!("at {parameter} = {}; {unreached} is out of reach: {reason}", significant(point.value, 8))
         };
@@ -127,7 +128,7 @@ impl SweepAnswer<'_> {
         });
         let own = [self.sweep.range.parameter.clone(), String::new()];
         let headings: Vec<String> = own.into_iter().chain(headings).chain(["min", "max"].map(str::to_string)).collect();
-        let mut table = Table::new(&headings.iter().map(String::as_str).collect::<Vec<_>>());
+        let mut table = TextTable::new(&headings.iter().map(String::as_str).collect::<Vec<_>>());
         for output in &outputs {
             let Extremes { name, unit, min, max, .. } = output;
             let size = min.value.abs().max(max.value.abs());

@@ -3,7 +3,7 @@
 use super::figures::{Curve, label, stacked};
 use super::tables::{shown, watched};
 use crate::math::bounds;
-use crate::plot::{Figure, Form, Item, Panel, Spot, Tint};
+use crate::plot::{Figure, Item, ItemForm, Panel, Spot, Tint};
 use crate::sweep::{Point, Sweep};
 
 /// Options of the figure of a sweep.
@@ -72,7 +72,7 @@ fn cut(sweep: &Sweep, points: &[&Point], values: &mut [f64]) {
 /// Adds a dashed vertical line with a text.
 pub fn marked(panel: Panel, x: f64, text: &str) -> Panel {
     let spots = vec![Spot::data(x, f64::NEG_INFINITY), Spot::data(x, f64::INFINITY)];
-    let line = Item { spots, tint: Tint::Ink(0.3), form: Form::Line(1.5, true) };
+    let line = Item { spots, tint: Tint::Ink(0.3), form: ItemForm::Line(1.5, true) };
     panel.items([line]).note(Tint::Ink(0.25), x, f64::INFINITY, text)
 }
 

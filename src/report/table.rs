@@ -41,7 +41,7 @@ impl OutputValues {
         if self.values.is_empty() {
             return String::new();
         }
-        let mut table = Table::new(&[heading, "", ""]);
+        let mut table = TextTable::new(&[heading, "", ""]);
         for (column, value) in self.columns.iter().zip(&self.values).take(most) {
             let value = if value.is_finite() { significant(*value, digits) } else { "?".to_string() };
             table.row([column.name.clone(), value, column.unit.clone()]);
@@ -59,15 +59,15 @@ impl Serialize for OutputValues {
 }
 
 /// Columns under headings; the first and those of text are aligned left, the others right unless all are aligned left.
-pub struct Table {
+pub struct TextTable {
     rows: Vec<Vec<String>>,
     left: bool,
     words: Vec<usize>,
 }
 
-impl Table {
+impl TextTable {
     pub fn new(headings: &[&str]) -> Self {
-        Table {
+        TextTable {
             rows: vec![headings.iter().map(|heading| heading.to_string()).collect()],
             left: false,
             words: Vec::new(),
@@ -76,13 +76,13 @@ impl Table {
 
     /// A row for each item.
     pub fn of<T>(columns: &[tables::TableColumn<T>], items: &[T]) -> Self {
-        let mut table = Table::new(&columns.iter().map(|column| column.0).collect::<Vec<_>>());
+        let mut table = TextTable::new(&columns.iter().map(|column| column.0).collect::<Vec<_>>());
         items.iter().for_each(|item| table.row(columns.iter().map(|(_, cell)| cell(item))));
         table
     }
 
     pub fn left(headings: &[&str]) -> Self {
-        Table { left: true, ..Table::new(headings) }
+        TextTable { left: true, ..TextTable::new(headings) }
     }
 
     /// Aligns a column left, as text.
@@ -119,7 +119,7 @@ pub fn count(n: usize, noun: &str) -> String {
     }
 }
 
-impl fmt::Display for Table {
+impl fmt::Display for TextTable {
     fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
         let columns = self.rows.iter().map(Vec::len).max().unwrap_or(0);
         let width = |column: usize| {

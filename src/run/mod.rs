@@ -50,7 +50,7 @@ pub struct Run<'a> {
     choice: Choice,
     /// Own methods that may be named.
     own_methods: OwnMethods,
-    start: Origin,
+    start: RunOrigin,
     /// Time of the start of the motion, s.
     began: f64,
     /// The end that is planned, s.
@@ -65,16 +65,16 @@ pub struct Run<'a> {
 }
 
 /// The state at which a run begins.
-enum Origin {
+enum RunOrigin {
     State(Vec<f64>, Vec<f64>),
     Saved(Box<Checkpoint>),
 }
 
-impl Origin {
+impl RunOrigin {
     fn start(&self) -> Start<'_> {
         match self {
-            Origin::State(q, v) => Start::State(q, v),
-            Origin::Saved(saved) => Start::Saved(saved),
+            RunOrigin::State(q, v) => Start::State(q, v),
+            RunOrigin::Saved(saved) => Start::Saved(saved),
         }
     }
 }
@@ -85,7 +85,7 @@ impl Model {
         let choice = self.choice(&self.method);
         let (q, v) = self.start();
         let span = self.span().ok();
-        let mut run = Run::of(self.system(), choice, Origin::State(q.to_vec(), v.to_vec()), self.start_time());
+        let mut run = Run::of(self.system(), choice, RunOrigin::State(q.to_vec(), v.to_vec()), self.start_time());
         let refused = self.check_rounding().err();
         run.own_methods = self.own_methods.clone();
         Run { end: span.map(|span| span.end), output_step: span.map(|span| span.output_step), refused, ..run }
@@ -135,8 +135,8 @@ impl<'a> Run<'a> {
         Error: From<M::Error>,
     {
         let start = match start.into() {
-            Start::State(q, v) => Origin::State(q.to_vec(), v.to_vec()),
-            Start::Saved(saved) => Origin::Saved(Box::new(saved.clone())),
+            Start::State(q, v) => RunOrigin::State(q.to_vec(), v.to_vec()),
+            Start::Saved(saved) => RunOrigin::Saved(Box::new(saved.clone())),
         };
         match method.try_into().map_err(Error::from) {
             Ok(method) => Run::of(system, Choice::One(Box::new(method)), start, t),
@@ -144,7 +144,7 @@ impl<'a> Run<'a> {
         }
     }
 
-    fn of(system: &'a dyn MechanicalSystem, choice: Choice, start: Origin, began: f64) -> Self {
+    fn of(system: &'a dyn MechanicalSystem, choice: Choice, start: RunOrigin, began: f64) -> Self {
         Run {
             system,
             choice,
@@ -186,7 +186,7 @@ impl<'a> Run<'a> {
 
     /// Begins where another run of the same system was saved.
     pub fn from_saved(mut self, saved: &Checkpoint) -> Self {
-        self.start = Origin::Saved(Box::new(saved.clone()));
+        self.start = RunOrigin::Saved(Box::new(saved.clone()));
         self.unless_begun("a start is given")
     }
 
@@ -301,8 +301,8 @@ impl<'a> Run<'a> {
     pub fn t(&self) -> f64 {
         match (&self.engine, &self.start) {
             (Some(engine), _) => engine.t(),
-            (None, Origin::Saved(saved)) => saved.t(),
-            (None, Origin::State(..)) => self.began,
+            (None, RunOrigin::Saved(saved)) => saved.t(),
+            (None, RunOrigin::State(..)) => self.began,
         }
     }
 
@@ -361,9 +361,9 @@ impl<'a> Run<'a> {
             let mut u = self.inputs.zeros();
             engine.time_loop().set_inputs(&u, self.inputs.law.as_ref());
             match &self.start {
-                Origin::Saved(saved) => self.inputs.go_on(saved.t(), self.began),
+                RunOrigin::Saved(saved) => self.inputs.go_on(saved.t(), self.began),
                 // The first samples are taken before the first row is shown.
-                Origin::State(..) => {
+                RunOrigin::State(..) => {
                     let read = self.observers.reader.read_present(&mut engine);
                     self.observers.reader.moment.check_names()?;
                     read?;

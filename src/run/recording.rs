@@ -8,13 +8,13 @@ use crate::simulate::{Engine, Observation, Sink, Stop};
 use crate::system::{MechanicalSystem, Scratch};
 
 /// Reads states for the functions of a run.
-pub(super) struct Reader<'a> {
+pub(super) struct StateReader<'a> {
     pub system: &'a dyn MechanicalSystem,
     pub moment: Moment,
     pub scratch: Scratch,
 }
 
-impl Reader<'_> {
+impl StateReader<'_> {
     pub fn read(&mut self, state: &Observation) {
         self.moment.read(self.system, state, &mut self.scratch);
     }
@@ -33,14 +33,14 @@ pub(super) fn unsolved(halt: StepError) -> Error {
 /// All that sees a run.
 pub(super) struct Observers<'a> {
     pub recorder: Recorder<'a>,
-    pub reader: Reader<'a>,
+    pub reader: StateReader<'a>,
     /// A sink of the user.
     pub sink: Box<dyn Sink + 'a>,
 }
 
 impl<'a> Observers<'a> {
     pub fn of(system: &'a dyn MechanicalSystem) -> Self {
-        let reader = Reader { system, moment: Moment::of(system), scratch: Scratch::default() };
+        let reader = StateReader { system, moment: Moment::of(system), scratch: Scratch::default() };
         Observers { recorder: Recorder::new(system), reader, sink: Box::new(()) }
     }
 

@@ -295,10 +295,10 @@ fn places<const D: usize>(mechanism: &Mechanism<D>, state: &State, scratch: &mut
     frames.iter().map(place).collect()
 }
 
-type Seen = (Vec<Vec<PlacedMarker>>, Vec<Vec<f64>>);
+type StateFacts = (Vec<Vec<PlacedMarker>>, Vec<Vec<f64>>);
 
 /// Placements of the markers and kinetic energies of the bodies at each state.
-fn seen<const D: usize>(mechanism: &Mechanism<D>, states: &[State]) -> Seen {
+fn seen<const D: usize>(mechanism: &Mechanism<D>, states: &[State]) -> StateFacts {
     let mut scratch = Scratch::default();
     let model = mechanism.model();
     let kinetic = |state: &State| -> Vec<f64> {

@@ -48,7 +48,7 @@ pub use facts::{Facts, PlacedMarker};
 pub use nearby::{Nearby, NearbyMotion, Robustness, Which};
 pub use promise::Promise;
 pub use relative::Relative;
-pub use rods::Rod;
+pub use rods::RodForce;
 pub use run::{Difference, ModelRun};
 pub use search::Trial;
 pub use source::Source;

@@ -2,7 +2,7 @@
 
 use super::grid::rows_on_grid;
 use super::run::counted;
-use crate::analysis::{Singularity, Sizes, Watch};
+use crate::analysis::{Singularity, SingularityWatch, Sizes};
 use crate::error::{Failure, INTERRUPTED, Result};
 use crate::linearize::State;
 use crate::prepared::Model;
@@ -57,20 +57,20 @@ pub fn record(
     is_stopped: &(dyn Fn() -> bool + Sync),
 ) -> Result<Recorded> {
     let system = prepared.system();
-    let mut memory = RunRecorder {
+    let mut recorder = RunRecorder {
         system,
         watched,
         scratch: Scratch::default(),
         scales: system.facts().scales.clone(),
         recorded: Recorded::default(),
-        watch: Watch::new(system),
+        watch: SingularityWatch::new(system),
     };
     let motion = Motion::of(prepared, prepared.span()?, watched.clone(), is_stopped);
-    let outcome = motion.simulate(method, None, &mut memory)?.outcome;
+    let outcome = motion.simulate(method, None, &mut recorder)?.outcome;
     let work = counted(prepared, method, outcome.statistics);
-    let singularity = memory.watch.finish();
+    let singularity = recorder.watch.finish();
     let left = singularity.failure();
-    let recorded = Recorded { work, singularity, ..memory.recorded };
+    let recorded = Recorded { work, singularity, ..recorder.recorded };
     match outcome.failure.or(left) {
         None => Ok(recorded),
         Some(failure) if failure.reason == INTERRUPTED => Ok(Recorded { stopped: Some(failure), ..recorded }),
@@ -86,7 +86,7 @@ struct RunRecorder<'a> {
     scratch: Scratch,
     scales: Vec<f64>,
     recorded: Recorded,
-    watch: Watch<'a>,
+    watch: SingularityWatch<'a>,
 }
 
 impl Sink for RunRecorder<'_> {

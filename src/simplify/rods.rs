@@ -1,7 +1,7 @@
 //! Links between two points: which pull, which push.
 
 use super::bench::mechanism;
-use super::candidates::Link;
+use super::candidates::PinnedLink;
 use super::facts::{Facts, PlacedMarker};
 use super::held::Tie;
 use crate::body::{norm, sub};
@@ -12,7 +12,7 @@ use serde_json::{Value, json};
 
 /// Force along a link between two points, tension positive, in small motions about the start.
 #[derive(Clone, Debug, Serialize)]
-pub struct Rod {
+pub struct RodForce {
     /// Name of the `distance`, or of the body between two pins.
     pub name: String,
     /// Force at the start, N.
@@ -34,7 +34,7 @@ struct AxialForce {
 /// The links of a scene that carry a force at the start: each `distance`, and each rigid body without loads between two
 /// pins, whose force is the mean of those at its ends. None where constraints are redundant: their forces are then not
 /// determined by the motion.
-pub fn rods(facts: &Facts) -> Vec<Rod> {
+pub fn rods(facts: &Facts) -> Vec<RodForce> {
     if !facts.redundant.is_empty() {
         return Vec::new();
     }
@@ -54,7 +54,7 @@ fn distance(facts: &Facts, name: &str) -> AxialForce {
 
 /// Half the difference of the forces on the link at its ends, along it: tension pulls it outwards at both.
 fn link(facts: &Facts, body: &Value) -> Option<AxialForce> {
-    let (name, Link { pins, .. }) = (text(body, "name"), Link::new(facts, body)?);
+    let (name, PinnedLink { pins, .. }) = (text(body, "name"), PinnedLink::new(facts, body)?);
     let components = &["x", "y", "z"][..facts.dimension()];
     let output =
         |(pin, component): (&Tie, &&str)| json!({ "measure": "reaction", "of": pin.name(), "component": component });
@@ -70,7 +70,7 @@ fn link(facts: &Facts, body: &Value) -> Option<AxialForce> {
     Some(AxialForce { name: name.to_string(), outputs: outputs.collect(), weights })
 }
 
-fn forces(facts: &Facts, sources: &[AxialForce]) -> Option<Vec<Rod>> {
+fn forces(facts: &Facts, sources: &[AxialForce]) -> Option<Vec<RodForce>> {
     let mut outputs: Vec<Value> = sources.iter().flat_map(|source| source.outputs.clone()).collect();
     let mut scene = facts.scene().clone();
     let mut prefix = "rod".to_string();
@@ -98,8 +98,8 @@ fn forces(facts: &Facts, sources: &[AxialForce]) -> Option<Vec<Rod>> {
 }
 
 /// Returns the rod with these forces over the states; none without states.
-fn rod(name: &str, forces: Vec<f64>) -> Option<Rod> {
+fn rod(name: &str, forces: Vec<f64>) -> Option<RodForce> {
     let least = forces.iter().copied().reduce(f64::min)?;
     let largest = forces.iter().copied().reduce(f64::max)?;
-    Some(Rod { name: name.to_string(), at_start: *forces.first()?, least, most: largest })
+    Some(RodForce { name: name.to_string(), at_start: *forces.first()?, least, most: largest })
 }

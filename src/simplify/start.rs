@@ -5,7 +5,7 @@ use super::candidate::{Candidate, Proposal};
 use super::edit::{carrier, elements, pair, text};
 use super::facts::{Facts, PlacedMarker, marker, placed};
 use super::modes;
-use super::rods::{Rod, rods};
+use super::rods::{RodForce, rods};
 use super::source::Source;
 use crate::body::{cross, dot, norm, sub};
 use crate::error::Result;
@@ -29,7 +29,7 @@ pub struct Hints {
     /// Changes of the scene that look harmless.
     pub changes: Vec<Hint>,
     /// Links that carry a force.
-    pub rods: Vec<Rod>,
+    pub rods: Vec<RodForce>,
     /// Modes that no output sees.
     pub unseen: Vec<Unseen>,
     /// Circular frequency of the slowest mode that outputs see, 1/s; none where they see none.

@@ -39,7 +39,7 @@ pub enum Root {
 }
 
 /// A fraction of a step, and the value there.
-type Look = (f64, f64);
+type RootSample = (f64, f64);
 
 impl Roots {
     /// The step just tried is accepted and ends at `t`.
@@ -96,10 +96,10 @@ impl TimeLoop<'_> {
 
 /// The two looks between which the sign changes first, and the value at the end of the step where it never does.
 fn first_change(
-    mut low: Look,
+    mut low: RootSample,
     at_end: &mut f64,
     look: &mut impl FnMut(f64) -> Result<f64, StepError>,
-) -> Result<Option<[Look; 2]>, StepError> {
+) -> Result<Option<[RootSample; 2]>, StepError> {
     for theta in PARTS {
         let value = look(theta)?;
         if low.1 * value <= 0.0 && low.1 != 0.0 {
@@ -113,7 +113,7 @@ fn first_change(
 }
 
 /// The place of the change of sign, by the regula falsi with halved weights (Illinois).
-fn located(bracket: [Look; 2], look: &mut impl FnMut(f64) -> Result<f64, StepError>) -> Result<f64, StepError> {
+fn located(bracket: [RootSample; 2], look: &mut impl FnMut(f64) -> Result<f64, StepError>) -> Result<f64, StepError> {
     let [mut low, mut high] = bracket;
     let sign = low.1.signum();
     // The Illinois rule takes about ten.

@@ -39,22 +39,22 @@ impl Completed<'_> {
 const FIRST_HALF: f64 = 0.4637;
 
 /// A part of the run with one method.
-pub struct Part {
+pub struct RunPart {
     pub method: Method,
     from: f64,
     to: f64,
 }
 
-impl Part {
+impl RunPart {
     /// The parts of a run; those of a method that was replaced before it made a step are left out.
-    pub fn of(prepared: &Model, run: &Completed) -> Vec<Part> {
+    pub fn of(prepared: &Model, run: &Completed) -> Vec<RunPart> {
         let Span { start, end, .. } = run.span;
         if run.legs.is_empty() {
-            return vec![Part { method: prepared.method.clone(), from: start, to: end }];
+            return vec![RunPart { method: prepared.method.clone(), from: start, to: end }];
         }
         let ends = run.legs.iter().skip(1).map(|leg| leg.from).chain([end]);
         let parts = run.legs.iter().zip(ends);
-        let parts = parts.map(|(leg, to)| Part { method: leg.method.clone(), from: leg.from, to });
+        let parts = parts.map(|(leg, to)| RunPart { method: leg.method.clone(), from: leg.from, to });
         parts.filter(|part| part.duration() > 0.0).collect()
     }
 
@@ -63,9 +63,9 @@ impl Part {
         self.to - self.from
     }
 
-    fn halves(&self) -> [Part; 2] {
+    fn halves(&self) -> [RunPart; 2] {
         let middle = self.from + FIRST_HALF * self.duration();
-        let half = |from, to| Part { method: self.method.clone(), from, to };
+        let half = |from, to| RunPart { method: self.method.clone(), from, to };
         [half(self.from, middle), half(middle, self.to)]
     }
 }
@@ -84,12 +84,12 @@ pub struct Companion {
 }
 
 /// Called with the times of a run, and asked whether it should end.
-pub type Watch<'a> = (&'a dyn Fn(f64), &'a (dyn Fn() -> Option<Stop> + Sync));
+pub type RunWatch<'a> = (&'a dyn Fn(f64), &'a (dyn Fn() -> Option<Stop> + Sync));
 
 /// The companion of a run: coarser, and begun anew in the middle where it would take the very steps of the run, as
 /// where steps grow by a largest factor from their beginning to the end. Finer where a coarser run diverges, or does not
 /// come to the end.
-pub fn companion(prepared: &Model, run: &Completed, parts: &[Part], watch: Watch) -> Companion {
+pub fn companion(prepared: &Model, run: &Completed, parts: &[RunPart], watch: RunWatch) -> Companion {
     let Statistics { steps, stagnated, .. } = run.statistics;
     let is_at_round_off = stagnated as f64 > AT_ROUND_OFF * steps as f64;
     let coarser = |method: &Method| Changed::coarser(method, is_at_round_off, prepared.system());
@@ -102,7 +102,7 @@ pub fn companion(prepared: &Model, run: &Completed, parts: &[Part], watch: Watch
         let part = seen_part(&first, steps as f64 / first.statistics.steps.max(1) as f64);
         return Companion { part, ..first };
     }
-    let halves: Vec<Part> = parts.iter().flat_map(Part::halves).collect();
+    let halves: Vec<RunPart> = parts.iter().flat_map(RunPart::halves).collect();
     let begun_anew = rerun(prepared, run.span, &halves, &coarser, watch);
     Companion { part: begun_anew.part.max(OF_FINER), ..begun_anew }
 }
@@ -137,7 +137,13 @@ fn has_diverged(trajectory: &Trajectory, companion: &[(f64, Vec<f64>)]) -> bool 
 }
 
 /// Runs the parts one after the other, each by its changed method.
-fn rerun(prepared: &Model, span: Span, parts: &[Part], change: &dyn Fn(&Method) -> Changed, watch: Watch) -> Companion {
+fn rerun(
+    prepared: &Model,
+    span: Span,
+    parts: &[RunPart],
+    change: &dyn Fn(&Method) -> Changed,
+    watch: RunWatch,
+) -> Companion {
     let (show, stop) = watch;
     let system = prepared.system();
     let (q, v) = prepared.start();

@@ -1,6 +1,6 @@
 //! Error bars of a run, from a companion: the same run by the same methods, but coarser.
 
-use super::companion::{Companion, Completed, Part, Watch, companion, differences, largest_of};
+use super::companion::{Companion, Completed, RunPart, RunWatch, companion, differences, largest_of};
 use super::run::Motion;
 use super::second_opinion::{SecondOpinion, second_opinion};
 use super::watched::Watched;
@@ -69,8 +69,8 @@ pub fn error_bars(
 
 impl ErrorBars {
     /// The bars alone, from a companion of the run.
-    pub fn of(prepared: &Model, run: Completed, watch: Watch) -> ErrorBars {
-        let companion = companion(prepared, &run, &Part::of(prepared, &run), watch);
+    pub fn of(prepared: &Model, run: Completed, watch: RunWatch) -> ErrorBars {
+        let companion = companion(prepared, &run, &RunPart::of(prepared, &run), watch);
         let Method { rtol, atol, step, .. } = companion.method;
         ErrorBars {
             rtol,
@@ -87,7 +87,7 @@ impl ErrorBars {
 
 /// Compares the run with one of diffsol.
 fn confirm(prepared: &Model, run: &Completed, is_stopped: &(dyn Fn() -> bool + Sync)) -> Option<SecondOpinion> {
-    let parts = Part::of(prepared, run);
+    let parts = RunPart::of(prepared, run);
     let longest = parts.iter().max_by(|a, b| a.duration().total_cmp(&b.duration()))?;
     let watched = Watched::new(prepared.system(), &[]).ok()?;
     let motion = Motion { counts_start: true, ..Motion::of(prepared, run.span, watched, is_stopped) };

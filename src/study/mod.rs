@@ -65,6 +65,6 @@ pub use watched::Watched;
 pub use work_precision::Runner as Tradeoff;
 #[doc(hidden)]
 pub use work_precision::{
-    Cell as TradeoffCell, Filter, Held as TradeoffDrift, Outcome as TradeoffOutcome, Plan as TradeoffPlan,
-    Recommendation, Triple, WorkPrecision, grid,
+    Cell as TradeoffCell, Filter, Held as TradeoffDrift, Outcome as TradeoffOutcome, Recommendation, TradeoffPlan,
+    Triple, WorkPrecision, grid,
 };

@@ -57,7 +57,7 @@ impl<'a> Motion<'a> {
     /// Bad input only, as `simulate`.
     pub(crate) fn simulate(&self, method: &Method, limit: Option<Limit>, sink: &mut dyn Sink) -> Result<Ended> {
         let watch = Stopwatch::start();
-        let mut limited = Limited { sink, is_stopped: self.is_stopped, limit, watch, over: Cell::new(None) };
+        let mut limited = LimitedSink { sink, is_stopped: self.is_stopped, limit, watch, over: Cell::new(None) };
         let outcome = simulate(self.system, method, self.span, self.start, &mut limited)?;
         let over = limited.over.get().filter(|_| outcome.failure.is_some());
         Ok(Ended { outcome, over, seconds: watch.cpu().as_secs_f64() })
@@ -146,7 +146,7 @@ pub(super) fn extrapolated(seconds: f64, t: f64, span: Span) -> Option<f64> {
 }
 
 /// A sink whose run ends at a limit.
-struct Limited<'a> {
+struct LimitedSink<'a> {
     sink: &'a mut dyn Sink,
     is_stopped: &'a (dyn Fn() -> bool + Sync),
     limit: Option<Limit>,
@@ -154,7 +154,7 @@ struct Limited<'a> {
     over: Cell<Option<Over>>,
 }
 
-impl Sink for Limited<'_> {
+impl Sink for LimitedSink<'_> {
     fn accepted(&mut self, state: &Observation) {
         self.sink.accepted(state);
     }

@@ -1,6 +1,6 @@
 //! A branch of assembled states, followed step by step.
 
-use super::{Family, Limit, Nearest, Point, Range};
+use super::{BranchLimit, Family, Nearest, Point, Range};
 use crate::error::{Error, Result};
 use crate::initial::{self, Assembly, Followed, continuation};
 use crate::math::array::Each;
@@ -11,7 +11,7 @@ use crate::tolerances;
 
 /// An assembled state.
 #[derive(Clone)]
-pub struct State {
+pub struct BranchState {
     /// The guess of its scene.
     guess: Vec<f64>,
     dependent: Vec<usize>,
@@ -49,7 +49,7 @@ impl Ready {
     }
 
     /// The state with velocities, accelerations, multipliers and outputs.
-    fn complete(self, value: f64, followed: Followed) -> Result<State> {
+    fn complete(self, value: f64, followed: Followed) -> Result<BranchState> {
         let assembly = self.assemble(&followed.q)?;
         let system = self.mechanism.system();
         let mut outputs = vec![0.0; system.facts().outputs.len()];
@@ -58,13 +58,13 @@ impl Ready {
         let at = OperatingPoint { t: self.t, q: &q, v: &v, vdot: &vdot, lambda: &lambda };
         system.outputs(at, &mut outputs, &mut Scratch::default());
         let point = Point { value, q, v, lambda, outputs, rank_indicator };
-        Ok(State { guess: self.guess, dependent, point })
+        Ok(BranchState { guess: self.guess, dependent, point })
     }
 }
 
-impl State {
+impl BranchState {
     /// The state assembled from the scene's own guess.
-    pub fn assembled(family: &Family, parameter: &str, value: f64) -> Result<State> {
+    pub fn assembled(family: &Family, parameter: &str, value: f64) -> Result<BranchState> {
         let ready = Ready::at(family, parameter, value)?;
         let q = ready.assemble(&ready.guess)?.q;
         // Following a state on the constraints gives the same state, except where it is singular.
@@ -78,31 +78,31 @@ impl State {
 }
 
 /// A branch followed from a state in one direction.
-pub struct Branch<'a> {
+pub struct FollowedBranch<'a> {
     family: &'a Family,
     parameter: &'a str,
     resolution: f64,
-    last: State,
-    before: Option<State>,
+    last: BranchState,
+    before: Option<BranchState>,
     nearest: Nearest,
     /// Number of constraints that depend on the others at the start, and so everywhere.
     redundant: usize,
 }
 
-impl<'a> Branch<'a> {
-    pub fn new(family: &'a Family, range: &'a Range, start: State) -> Self {
+impl<'a> FollowedBranch<'a> {
+    pub fn new(family: &'a Family, range: &'a Range, start: BranchState) -> Self {
         let parameter = range.parameter.as_str();
         let resolution = tolerances::ROOT_OF_ROUND_OFF * range.length();
         let nearest = start.nearest();
         let redundant = start.dependent.len();
-        Branch { family, parameter, resolution, last: start, before: None, nearest, redundant }
+        FollowedBranch { family, parameter, resolution, last: start, before: None, nearest, redundant }
     }
 
     pub fn last(&self) -> &Point {
         &self.last.point
     }
 
-    pub fn into_last(self) -> State {
+    pub fn into_last(self) -> BranchState {
         self.last
     }
 
@@ -111,7 +111,7 @@ impl<'a> Branch<'a> {
     }
 
     /// Continues to a value in steps that are halved until the branch is kept; returns its end if that comes before.
-    pub fn go(&mut self, target: f64) -> Option<Limit> {
+    pub fn go(&mut self, target: f64) -> Option<BranchLimit> {
         let start = self.last.point.value;
         let mut problem = None;
         let (reached, step) =
@@ -138,7 +138,7 @@ impl<'a> Branch<'a> {
         }
     }
 
-    fn accept(&mut self, mut state: State) {
+    fn accept(&mut self, mut state: BranchState) {
         // The rank indicator ignores the dependent rows; where more rows depend on others than at the start, it is
         // zero.
         if state.dependent.len() > self.redundant {
@@ -151,7 +151,7 @@ impl<'a> Branch<'a> {
     }
 
     /// The state at a value, from the first of several guesses from which Newton's method contracts.
-    fn reach(&self, value: f64) -> Result<Option<State>> {
+    fn reach(&self, value: f64) -> Result<Option<BranchState>> {
         let ready = Ready::at(self.family, self.parameter, value)?;
         let none: &[usize] = &[];
         let dependent = &self.last.dependent[..];
@@ -185,7 +185,7 @@ impl<'a> Branch<'a> {
 
     /// The state at the end of the branch, where that is the target: Newton's method does not contract there, but
     /// assembly finds it.
-    fn at_the_end(&self, target: f64) -> Option<State> {
+    fn at_the_end(&self, target: f64) -> Option<BranchState> {
         let ready = Ready::at(self.family, self.parameter, target).ok()?;
         let last = &self.last.point.q;
         let q = ready.assemble(last).ok()?.q;
@@ -196,12 +196,12 @@ impl<'a> Branch<'a> {
         if is_beside { ready.complete(target, followed).ok() } else { None }
     }
 
-    fn limit(&self, target: f64, problem: Option<Error>, within: f64) -> Limit {
+    fn limit(&self, target: f64, problem: Option<Error>, within: f64) -> BranchLimit {
         // The error of an assembly beyond the end.
         let obstacle = || Ready::at(self.family, self.parameter, target)?.assemble(&self.last.point.q);
         let reason = problem.or_else(|| obstacle().err()).map(message);
         let elsewhere = "the joints close only in another configuration, to which no motion leads from here";
-        Limit {
+        BranchLimit {
             point: self.last.point.clone(),
             within,
             unreached: target,

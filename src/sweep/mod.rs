@@ -66,7 +66,7 @@ pub struct Sweep {
     /// The states at the values that were reached, in the order of the range.
     pub points: Vec<Point>,
     /// The ends of the branch that lie in the range.
-    pub limits: Vec<Limit>,
+    pub limits: Vec<BranchLimit>,
     /// The state nearest to a singular one, among all that were assembled, also between the values.
     pub nearest_singular: Nearest,
 }
@@ -113,7 +113,7 @@ pub struct Point {
 /// An end of the branch.
 #[derive(Clone, Debug, PartialEq)]
 #[doc(hidden)]
-pub struct Limit {
+pub struct BranchLimit {
     /// The last state that was reached.
     pub point: Point,
     /// No state was found at this distance in the parameter beyond `point`.

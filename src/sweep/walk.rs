@@ -1,7 +1,7 @@
 //! A sweep along a branch over the values of a range.
 
-use super::branch::{Branch, State};
-use super::{Family, Limit, Point, Range, Sweep};
+use super::branch::{BranchState, FollowedBranch};
+use super::{BranchLimit, Family, Point, Range, Sweep};
 use crate::error::{Error, Result};
 use crate::prepared::AnyMechanism;
 
@@ -29,8 +29,8 @@ impl Family {
         let mut nearest = start.nearest();
         let mut done = 0;
         // The states on one side of the start, from the nearest value on.
-        let mut side = |values: &[f64]| -> (Vec<Point>, Option<Limit>) {
-            let mut branch = Branch::new(self, range, start.clone());
+        let mut side = |values: &[f64]| -> (Vec<Point>, Option<BranchLimit>) {
+            let mut branch = FollowedBranch::new(self, range, start.clone());
             let mut points = Vec::new();
             let limit = values.iter().find_map(|value| {
                 let limit = branch.go(*value);
@@ -67,11 +67,11 @@ impl Family {
 
     /// The scene at its own value, or moved from there to the near end of the range; where it cannot be assembled
     /// there, at the nearest value of the range. Returns true if the value is the scene's own.
-    fn start(&self, range: &Range, values: &[f64], own: f64) -> Result<(State, bool)> {
+    fn start(&self, range: &Range, values: &[f64], own: f64) -> Result<(BranchState, bool)> {
         let parameter = &range.parameter;
         let distance = |value: &f64| (value - own).abs();
         let near = values.iter().copied().min_by(|a, b| distance(a).total_cmp(&distance(b))).unwrap_or(own);
-        let at = |value: f64| State::assembled(self, parameter, value);
+        let at = |value: f64| BranchState::assembled(self, parameter, value);
         let Ok(state) = at(own) else {
             let place = |error| self.place(error).element(format!("{parameter} = {near}"));
             return Ok((at(near).map_err(place)?, false));
@@ -79,7 +79,7 @@ impl Family {
         if range.contains(own) {
             return Ok((state, true));
         }
-        let mut branch = Branch::new(self, range, state);
+        let mut branch = FollowedBranch::new(self, range, state);
         match branch.go(near) {
             None => Ok((branch.into_last(), false)),
             Some(limit) => Err(Error::input(format!(

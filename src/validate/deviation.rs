@@ -70,15 +70,15 @@ pub enum Reason {
 /// Measured values and their uncertainties: infinite where the two sides of the state differ, with no number where
 /// too few perturbed states exist.
 #[derive(Clone, Debug)]
-pub struct Limits {
+pub struct MatrixLimits {
     pub values: Matrix,
     pub uncertainties: Matrix,
 }
 
-impl Limits {
+impl MatrixLimits {
     /// Zeros to be [`set`](Self::set).
     pub fn new(rows: usize, columns: usize) -> Self {
-        Limits { values: Matrix::zeros(rows, columns), uncertainties: Matrix::zeros(rows, columns) }
+        MatrixLimits { values: Matrix::zeros(rows, columns), uncertainties: Matrix::zeros(rows, columns) }
     }
 
     /// Sets an entry.
@@ -91,7 +91,7 @@ impl Limits {
 /// [A B; C D] of a model against measured values. Columns begin with the states.
 pub struct Comparison {
     model: Matrix,
-    measured: Limits,
+    measured: MatrixLimits,
     /// Scale of each row and of each column: entries times that of the column over that of the row are 1 at most.
     scales: [Vec<f64>; 2],
     /// Response of each output that is not known to respond, in the scale of the columns; 0 for all other rows.
@@ -100,7 +100,7 @@ pub struct Comparison {
 
 impl Comparison {
     /// The comparison of a model with `k` displacements among its `n` states, and the `rate` of its velocities, 1/s.
-    pub fn new(model: Matrix, measured: Limits, k: usize, n: usize, rate: f64) -> Self {
+    pub fn new(model: Matrix, measured: MatrixLimits, k: usize, n: usize, rate: f64) -> Self {
         let state = |i: usize| if i < k { 1.0 } else { rate };
         let largest = |sizes: &mut dyn Iterator<Item = f64>| sizes.filter(|x| x.is_finite()).fold(0.0, f64::max);
         let entries = (0..n).flat_map(|i| (0..n).map(move |j| (i, j)));
@@ -179,14 +179,14 @@ impl Comparison {
 
 #[cfg(test)]
 mod tests {
-    use super::{Comparison, Deviation, Limits, Reason, Unjudged};
+    use super::{Comparison, Deviation, MatrixLimits, Reason, Unjudged};
     use crate::linearize::Matrix;
 
     /// x'' = -4 x with one output, whose row is compared.
     fn output(model: [f64; 2], measured: [f64; 2], uncertainty: f64) -> (Option<Deviation>, Vec<Unjudged>) {
         let whole = |row: [f64; 2]| Matrix::from_row_slice(3, 2, &[0.0, 1.0, -4.0, 0.0, row[0], row[1]]);
         let uncertainties = Matrix::from_fn(3, 2, |i, _| if i == 2 { uncertainty } else { 1e-12 });
-        let limits = Limits { values: whole(measured), uncertainties };
+        let limits = MatrixLimits { values: whole(measured), uncertainties };
         let rows = ["x", "x'", "y"].map(str::to_string);
         let comparison = Comparison::new(whole(model), limits, 1, 2, 2.0);
         let names: [&[String]; 2] = [&rows, &rows[..2]];

@@ -1,6 +1,6 @@
 //! The frozen model exp(A t) against the variational equations.
 
-use super::deviation::{Comparison, Deviation, Limits};
+use super::deviation::{Comparison, Deviation, MatrixLimits};
 use super::limit::limit;
 use super::subject::Subject;
 use super::{Decay, decay};
@@ -67,11 +67,11 @@ pub fn frozen(subject: &Subject, longest: f64) -> Result<(Frozen, Vec<Coordinate
 }
 
 /// Returns the limit of (X(h) - I)/h from X at increasing steps.
-fn transition_limit(start: &Coordinates, steps: &[f64], transitions: &[Matrix]) -> Option<Limits> {
+fn transition_limit(start: &Coordinates, steps: &[f64], transitions: &[Matrix]) -> Option<MatrixLimits> {
     let sizes: Vec<f64> = steps.iter().rev().copied().collect();
     let first = start.states_of(&start.changes());
     let n = first.nrows();
-    let mut limits = Limits::new(n, n);
+    let mut limits = MatrixLimits::new(n, n);
     for (i, j) in (0..n).flat_map(|i| (0..n).map(move |j| (i, j))) {
         let slopes = transitions.iter().rev().zip(&sizes).map(|(x, h)| (x[(i, j)] - first[(i, j)]) / h);
         let rounding = tolerances::TIGHTEST * first[(j, j)].abs().max(1.0);

@@ -9,7 +9,7 @@
 //! motion needs to be integrated. States and inputs are perturbed one at a time. The chart at h is that carried along
 //! the motion. Both limits are extrapolated.
 
-use super::deviation::{Comparison, Deviation, Limits, Unjudged};
+use super::deviation::{Comparison, Deviation, MatrixLimits, Unjudged};
 use super::limit::{Limit, limit};
 use super::probe::{Probe, Shift};
 use super::subject::Subject;
@@ -131,7 +131,12 @@ impl<'m, 'a> Bench<'m, 'a> {
     }
 
     /// Returns B dv' of each column, and the outputs below.
-    fn responses(&self, system: &dyn MechanicalSystem, start: &State, is_over: &dyn Fn() -> bool) -> Option<Limits> {
+    fn responses(
+        &self,
+        system: &dyn MechanicalSystem,
+        start: &State,
+        is_over: &dyn Fn() -> bool,
+    ) -> Option<MatrixLimits> {
         let mut probe = Probe::new(system, start);
         let b = &self.model.coordinates.b;
         let rows = b.nrows() + self.model.built.c.nrows();
@@ -163,7 +168,7 @@ impl<'m, 'a> Bench<'m, 'a> {
             let tiny = TINY_SHIFTS.iter().filter_map(|eps| slope(eps / unit));
             tables.push((slopes, tiny.collect::<Vec<_>>()));
         }
-        let mut limits = Limits::new(rows, self.columns.len());
+        let mut limits = MatrixLimits::new(rows, self.columns.len());
         for row in 0..rows {
             let extrapolated = |slopes: &[(f64, Matrix, Matrix)], rounding: f64| {
                 let (sizes, values): (Vec<f64>, Vec<f64>) =
@@ -215,7 +220,7 @@ impl<'m, 'a> Bench<'m, 'a> {
     }
 
     /// Returns the part of x' of each column that is not B dv'.
-    fn motion(&self, along: &Along) -> Limits {
+    fn motion(&self, along: &Along) -> MatrixLimits {
         let Coordinates { b, tilt, .. } = &self.model.coordinates;
         let Changes { q, v } = &self.changes;
         let k = tilt.ncols();
@@ -229,7 +234,7 @@ impl<'m, 'a> Bench<'m, 'a> {
         let start = states(&self.model.coordinates, 0.0);
         let slope = |(chart, h): (&Coordinates, &f64)| (states(chart, *h) - &start) / *h;
         let slopes: Vec<Matrix> = along.charts.iter().zip(along.steps).map(slope).collect();
-        let mut limits = Limits::new(start.nrows(), start.ncols());
+        let mut limits = MatrixLimits::new(start.nrows(), start.ncols());
         let absolute = b.abs();
         let sizes = absolute.rows(0, k) * q.abs();
         let speeds = &absolute * (v.abs() + tilt.abs() * &sizes);
@@ -272,7 +277,7 @@ impl<'m, 'a> Bench<'m, 'a> {
     }
 
     /// Compares the model with the measured responses and motion.
-    fn compare(&mut self, responses: Limits, motion: Limits) -> Result<Measured> {
+    fn compare(&mut self, responses: MatrixLimits, motion: MatrixLimits) -> Result<Measured> {
         let Minimal { coordinates, built } = self.model;
         let k = coordinates.freedom();
         let n = motion.values.nrows();
@@ -290,7 +295,7 @@ impl<'m, 'a> Bench<'m, 'a> {
         };
         let mut values = join(motion.values, &responses.values);
         self.add_direct(&mut values, n)?;
-        let measured = Limits { values, uncertainties: join(motion.uncertainties, &responses.uncertainties) };
+        let measured = MatrixLimits { values, uncertainties: join(motion.uncertainties, &responses.uncertainties) };
         let wide = |states: &Matrix, input_states: &Matrix, inputs: &Matrix| {
             let whole = beside(states, &beside(input_states, inputs));
             whole.columns(0, self.columns.len()).clone_owned()

@@ -33,11 +33,11 @@ pub(crate) use input::InputCheck;
 pub use measured::Measured;
 #[doc(hidden)]
 pub use order::{Decay, decay};
-pub use passage::Passage;
+pub use passage::EventPassage;
 #[doc(hidden)]
 pub use run::validate_changed;
 pub use run::{Event, Validation, Verdict, validate, validate_until};
-pub use sequence::{Curve, PerturbationSequence};
+pub use sequence::{ChangeCurve, PerturbationSequence};
 pub use span::{SpanCheck, validate_along};
 
 use crate::linearize::Chart;

@@ -16,7 +16,7 @@ const EPSILONS: [f64; 9] = [1e-1, 3e-2, 1e-2, 3e-3, 1e-3, 3e-4, 1e-4, 1.3e-9, 1e
 
 /// Motions that pass a change of form, each at a time of its own. Small changes jump there by the saltation matrix.
 #[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct Passage {
+pub struct EventPassage {
     /// Time of the comparison, s.
     pub t: f64,
     /// Sizes of (dq, dv/rate), m or rad.
@@ -29,7 +29,7 @@ pub struct Passage {
 
 /// Perturbs the start along x0 and compares at the time `t`; none where the motion does not come through, or stays on a
 /// threshold.
-pub(super) fn passage(subject: &Subject, x0: &Matrix, t: f64) -> Option<Passage> {
+pub(super) fn passage(subject: &Subject, x0: &Matrix, t: f64) -> Option<EventPassage> {
     let Subject { system, start, model, norm, is_over, .. } = subject;
     let bundle = Bundle { columns: model.coordinates.changes_of(x0), ..Bundle::of(start) };
     let mut predicted = None;
@@ -51,21 +51,21 @@ pub(super) fn passage(subject: &Subject, x0: &Matrix, t: f64) -> Option<Passage>
     end.members = members;
     let errors = norm.errors(*system, &end, &end.columns, &epsilons);
     let order = norm.order(*system, &end, &epsilons, &errors);
-    Some(Passage { t, epsilons, errors, order })
+    Some(EventPassage { t, epsilons, errors, order })
 }
 
 /// Returns the state of a motion at the time `t`; none where it does not come so far.
 fn reached(system: &dyn MechanicalSystem, start: &State, t: f64, is_over: &dyn Fn() -> bool) -> Option<State> {
     let method = Method { rtol: tolerances::FLOW_RTOL, atol: tolerances::TIGHTEST, ..Method::default() };
     let span = Span { start: start.t, end: t, output_step: t - start.t };
-    let outcome = simulate(system, &method, span, (&start.q, &start.v), &mut Limited(is_over)).ok()?;
+    let outcome = simulate(system, &method, span, (&start.q, &start.v), &mut TimeLimited(is_over)).ok()?;
     outcome.failure.is_none().then_some(State { t, q: outcome.q, v: outcome.v })
 }
 
 /// Ends a run when the time is over.
-struct Limited<'t>(&'t dyn Fn() -> bool);
+struct TimeLimited<'t>(&'t dyn Fn() -> bool);
 
-impl Sink for Limited<'_> {
+impl Sink for TimeLimited<'_> {
     fn watches(&self) -> bool {
         false
     }

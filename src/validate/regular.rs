@@ -1,7 +1,7 @@
 //! How far motions can be compared: a linear model ends at a singular state and where the equations change their form,
 //! which perturbed motions pass at other times.
 
-use crate::analysis::Watch;
+use crate::analysis::SingularityWatch;
 use crate::error::Result;
 use crate::linearize::{State, changed_parts};
 use crate::simulate::{Method, Observation, Sink, Span, simulate};
@@ -20,7 +20,7 @@ pub struct Event {
 
 /// The end of the smooth motion, where there is one within the time.
 #[derive(Default)]
-pub struct End {
+pub struct SmoothEnd {
     /// Time of the first singular state, s.
     pub singular: Option<f64>,
     /// The first change of form.
@@ -29,7 +29,7 @@ pub struct End {
 
 struct Watcher<'a> {
     system: &'a dyn MechanicalSystem,
-    rank: Watch<'a>,
+    rank: SingularityWatch<'a>,
     /// Events are of interest after this time, s.
     after: f64,
     event: Option<Event>,
@@ -61,13 +61,13 @@ impl Sink for Watcher<'_> {
 ///
 /// # Errors
 /// A start that cannot be simulated.
-pub fn end(system: &dyn MechanicalSystem, start: &State, duration: f64) -> Result<End> {
+pub fn end(system: &dyn MechanicalSystem, start: &State, duration: f64) -> Result<SmoothEnd> {
     let is_constrained = system.dimensions().lambda > 0;
     if !is_constrained && system.switches().all.is_empty() {
-        return Ok(End::default());
+        return Ok(SmoothEnd::default());
     }
     let after = start.t + SAME * duration;
-    let mut watcher = Watcher { system, rank: Watch::new(system), after, event: None };
+    let mut watcher = Watcher { system, rank: SingularityWatch::new(system), after, event: None };
     let span = Span { start: start.t, end: start.t + duration, output_step: duration };
     let outcome = simulate(system, &Method::default(), span, (&start.q, &start.v), &mut watcher)?;
     let Watcher { rank, event, .. } = watcher;
@@ -75,5 +75,5 @@ pub fn end(system: &dyn MechanicalSystem, start: &State, duration: f64) -> Resul
     let passed = found.passed.iter().find(|passing| passing.is_singular).map(|passing| passing.t);
     let is_near = found.nearest.is_some_and(|nearest| nearest.rank_indicator < TRUNCATED_RANK);
     let singular = passed.or(outcome.failure.filter(|_| is_near && is_constrained).map(|failure| failure.t));
-    Ok(End { singular, event })
+    Ok(SmoothEnd { singular, event })
 }

@@ -5,12 +5,12 @@ use super::input::{self, Pulsed};
 use super::measured::{Along, Measured, measure};
 use super::passage::passage;
 pub use super::regular::Event;
-use super::regular::{End, end};
+use super::regular::{SmoothEnd, end};
 use super::sequence::sequence;
 use super::subject::Subject;
 use super::{Decay, Deviation, Direction, Frozen, InputCheck, MatrixEntry, PerturbationSequence, Settings};
 use crate::error::{Result, percent, short_list, significant};
-use crate::linearize::{Built, Coordinates, State, Variation, refuse_large};
+use crate::linearize::{Coordinates, LinearMatrices, State, Variation, refuse_large};
 use crate::system::{Column, MechanicalSystem};
 use crate::tolerances;
 use serde::Serialize;
@@ -91,7 +91,7 @@ pub fn validate_changed(
     start: &State,
     settings: &Settings,
     is_over: &dyn Fn() -> bool,
-    change: impl FnOnce(&mut Built),
+    change: impl FnOnce(&mut LinearMatrices),
 ) -> Result<Validation> {
     refuse_large(system.dimensions().v)?;
     let mut variation = Variation::new(system, start.t, &start.q, &start.v)?;
@@ -145,7 +145,7 @@ impl Reach {
     fn new(subject: &Subject, settings: &Settings) -> Result<Self> {
         let start = subject.start;
         let wished = settings.horizon.unwrap_or(subject.speed.period());
-        let End { singular, event } = end(subject.system, start, wished)?;
+        let SmoothEnd { singular, event } = end(subject.system, start, wished)?;
         // Nearer, terms of second order grow with the inverse of the distance.
         let regular = singular.map_or(wished, |t| 0.5 * (t - start.t));
         let event = event.filter(|event| event.t - start.t < regular);

@@ -3,7 +3,7 @@
 use super::horizon::{SHARES, horizon, horizons};
 use super::perturb::{EPSILONS, are_alike, difference, moved};
 use super::subject::Subject;
-use super::{Decay, Passage};
+use super::{Decay, EventPassage};
 use crate::error::{Error, Result};
 use crate::linearize::flow::{Bundle, Snapshot};
 use crate::linearize::{Matrix, State};
@@ -34,16 +34,16 @@ pub struct PerturbationSequence {
     pub horizons: [Option<f64>; 2],
     /// Changes of the velocity directions that move most, at `curve_epsilon`.
     #[doc(hidden)]
-    pub curves: Vec<Curve>,
+    pub curves: Vec<ChangeCurve>,
     /// Size of the perturbation of the curves, m or rad.
     pub curve_epsilon: f64,
     /// The motions through changes of form; none where there are none on the way, or motions do not come through.
-    pub passage: Option<Passage>,
+    pub passage: Option<EventPassage>,
 }
 
 /// Change along one velocity direction over time, simulated and predicted.
 #[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct Curve {
+pub struct ChangeCurve {
     /// Index of the direction in v.
     pub direction: usize,
     /// Difference of the two simulated motions, m or rad.
@@ -146,7 +146,7 @@ impl Followed<'_> {
     }
 
     /// Returns the curves that move most, and the size of their perturbation.
-    fn curves(&self) -> (Vec<Curve>, f64) {
+    fn curves(&self) -> (Vec<ChangeCurve>, f64) {
         let Subject { system, carried, .. } = self.subject;
         let member = self.epsilons.iter().position(|eps| *eps <= SHOWN).unwrap_or(0);
         let Some(&eps) = self.epsilons.get(member) else { return (Vec::new(), 0.0) };
@@ -163,7 +163,7 @@ impl Followed<'_> {
             eps * (row * x.rows(0, freedom))[0]
         };
         let predicted = || self.snapshots.iter().zip(&self.predicted);
-        let curve = |direction: usize| Curve {
+        let curve = |direction: usize| ChangeCurve {
             direction,
             simulated: simulated.iter().map(|dq| dq[direction]).collect(),
             ltv: column(direction).map(|x| eps * x).collect(),

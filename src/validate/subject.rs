@@ -3,7 +3,7 @@
 use super::Settings;
 use super::perturb::{Norm, Speed};
 use crate::error::Result;
-use crate::linearize::{Built, Carried, Chart, Minimal, State, Variation, minimal};
+use crate::linearize::{CarriedChart, Chart, LinearMatrices, Minimal, State, Variation, minimal};
 use crate::system::MechanicalSystem;
 
 /// The model at a state, with the motion from there and the measures of its changes.
@@ -15,7 +15,7 @@ pub struct Subject<'a> {
     pub chart: String,
     /// True for the plain projection, which belongs to no chart.
     pub is_projected: bool,
-    pub carried: Carried<'a>,
+    pub carried: CarriedChart<'a>,
     pub speed: Speed,
     pub norm: Norm,
     /// True when the time is over.
@@ -32,7 +32,7 @@ impl<'a> Subject<'a> {
         start: &'a State,
         settings: &Settings,
         is_over: &'a dyn Fn() -> bool,
-        change: impl FnOnce(&mut Built),
+        change: impl FnOnce(&mut LinearMatrices),
     ) -> Result<Self> {
         let chart = settings.chart.clone().unwrap_or_else(|| Chart::preferred(variation));
         let mut model = minimal(variation, &chart)?;
@@ -40,7 +40,7 @@ impl<'a> Subject<'a> {
         // The plain projection has no chart that follows the motion; its states are those of the mass-orthogonal one.
         let is_projected = chart == Chart::Frozen;
         let chart = if is_projected { Chart::MassOrthogonal } else { chart };
-        let carried = Carried::new(variation, &chart, is_over)?;
+        let carried = CarriedChart::new(variation, &chart, is_over)?;
         model.coordinates = carried.start.clone();
         let speed = Speed::of(&model)?;
         change(&mut model.built);

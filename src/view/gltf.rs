@@ -7,7 +7,7 @@ use super::ShownMotion;
 use super::clip::pose;
 use super::glb::{Glb, turned};
 use super::moving::scene_at;
-use super::parts::{BodyPart, LinkPart, PageParts, Place, line_points};
+use super::parts::{BodyPart, FramePoint, LinkPart, PageParts, line_points};
 use super::primitives::{Placement, Primitive};
 use super::rows::even_rows;
 use crate::body::{Form, Solid, norm, sub};
@@ -144,7 +144,7 @@ impl Figure<'_> {
     }
 
     /// A rod between two places, which moves by itself unless both are in one frame.
-    fn link(&mut self, from: &Place, to: &Place, radius: f64, color: Option<usize>, name: &str) {
+    fn link(&mut self, from: &FramePoint, to: &FramePoint, radius: f64, color: Option<usize>, name: &str) {
         if from.frame == to.frame {
             let ends = between(from.at.map(f64::from), to.at.map(f64::from), radius);
             self.glb.fixed_node(self.frames[from.frame], name, ends, (Primitive::Cylinder, color));
@@ -162,7 +162,7 @@ impl Figure<'_> {
     }
 
     /// Something at a place, in its axes.
-    fn fixed(&mut self, place: &Place, placement: Placement, mesh: Primitive, color: Option<usize>, name: &str) {
+    fn fixed(&mut self, place: &FramePoint, placement: Placement, mesh: Primitive, color: Option<usize>, name: &str) {
         let (at, rotation, scale) = placement;
         let axes = place.rotation.map_or([1.0, 0.0, 0.0, 0.0], |rotation| rotation.map(f64::from));
         let [x, y, z, w] = rotation;
@@ -174,7 +174,7 @@ impl Figure<'_> {
 
     fn solid(&mut self, body: &BodyPart, solid: &Solid, color: Option<usize>) {
         let rotation = Some(solid.rotation.map(|x| x as f32));
-        let place = Place { frame: body.frame, at: solid.at.map(|x| x as f32), rotation };
+        let place = FramePoint { frame: body.frame, at: solid.at.map(|x| x as f32), rotation };
         for (placement, mesh) in solid_pieces(&solid.form, self.radius) {
             self.fixed(&place, placement, mesh, color, &body.name);
         }

@@ -12,7 +12,7 @@ const LEAST_ROWS: usize = 120;
 
 /// A mechanism in motion.
 #[derive(Serialize)]
-pub struct Moving {
+pub struct MovingMechanism {
     pub label: String,
     pub bodies: Vec<BodyPart>,
     pub joints: Vec<LinkPart>,
@@ -21,13 +21,13 @@ pub struct Moving {
     pub clip: Clip,
 }
 
-impl Moving {
+impl MovingMechanism {
     /// The motion of a run at these rows.
     pub fn new(run: &ShownMotion, parts: PageParts, rows: &[usize]) -> Self {
         let mut clip = Clip::default();
         rows.iter().for_each(|row| add(&mut clip, run, &parts, *row));
         let PageParts { bodies, joints, forces, traces, .. } = parts;
-        Moving { label: run.label.clone(), bodies, joints, forces, traces, clip }
+        MovingMechanism { label: run.label.clone(), bodies, joints, forces, traces, clip }
     }
 }
 

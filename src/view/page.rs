@@ -4,7 +4,7 @@ use super::ShownMotion;
 use super::curves::{Curve, curves};
 use super::encode::{base64, in_script};
 use super::modes::{ModePart, modes};
-use super::moving::{Moving, fitting_parts, numbers_of_row};
+use super::moving::{MovingMechanism, fitting_parts, numbers_of_row};
 use super::rows::even_rows;
 use crate::linearize::LinearModel;
 use crate::report::mechanism::up;
@@ -55,7 +55,7 @@ struct Data<'a> {
     up: usize,
     notes: Vec<String>,
     /// The run, then the ghosts.
-    mechanisms: Vec<Moving>,
+    mechanisms: Vec<MovingMechanism>,
     curves: Vec<Curve>,
     modes: Vec<ModePart>,
 }
@@ -75,7 +75,7 @@ pub fn page(run: &ShownMotion, extras: &Extras) -> String {
     let numbers = (BYTES.saturating_sub(parts.bytes()) * 3 / 16).saturating_sub(of_modes);
     let rows = even_rows(run.rows, extras.rows.min(numbers / of_row));
     let curves = curves(run, &rows).0;
-    let mut mechanisms = vec![Moving::new(run, parts, &rows)];
+    let mut mechanisms = vec![MovingMechanism::new(run, parts, &rows)];
     let of_ghost = NUMBERS.min(NUMBERS_OF_GHOSTS / extras.ghosts.len().max(1));
     mechanisms.extend(extras.ghosts.iter().map(|ghost| moving_ghost(ghost, extras.rows, of_ghost)));
     let prepared = run.prepared;
@@ -101,10 +101,10 @@ fn note_rest(notes: &mut Vec<String>, what: &str, shown: usize, all: usize) {
 }
 
 /// Returns another run; `numbers` are those that the page has room for.
-fn moving_ghost(ghost: &ShownMotion, rows: usize, numbers: usize) -> Moving {
+fn moving_ghost(ghost: &ShownMotion, rows: usize, numbers: usize) -> MovingMechanism {
     let parts = fitting_parts(ghost, NUMBERS);
     let rows = rows.min(numbers / numbers_of_row(ghost, &parts));
-    Moving::new(ghost, parts, &even_rows(ghost.rows, rows))
+    MovingMechanism::new(ghost, parts, &even_rows(ghost.rows, rows))
 }
 
 fn html(data: &Data) -> String {

@@ -21,7 +21,7 @@ pub enum Source {
 
 /// A point with axes, fixed in a frame.
 #[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct Place {
+pub struct FramePoint {
     /// 0 is the ground, others count from 1.
     pub frame: usize,
     /// Position in the frame, m.
@@ -40,7 +40,7 @@ pub struct BodyPart {
     /// False for a point mass.
     pub oriented: bool,
     /// Points of its outline.
-    pub points: Vec<Place>,
+    pub points: Vec<FramePoint>,
     /// Its shapes, placed from the centre of mass; empty where the scene gives none.
     pub solids: Vec<Solid>,
     /// Number of the points of its line, for a beam; else 0.
@@ -52,7 +52,7 @@ pub struct BodyPart {
 pub struct LinkPart {
     pub name: String,
     pub kind: &'static str,
-    pub ends: Vec<Place>,
+    pub ends: Vec<FramePoint>,
     /// Bodies of the ends; none is the ground.
     pub bodies: Vec<Option<usize>>,
     /// Axis of a joint in the axes of its first end.
@@ -68,7 +68,7 @@ pub struct LinkPart {
 pub struct TracePart {
     pub name: String,
     pub body: Option<usize>,
-    pub place: Place,
+    pub place: FramePoint,
 }
 
 /// What a page shows of a mechanism, with the frames that it needs.
@@ -136,9 +136,9 @@ impl PageParts {
         let mut points = Vec::new();
         for (k, point) in limb.points.iter().enumerate().filter(|_| !is_line) {
             points.push(if is_deformed {
-                Place { frame: self.frame(Source::Point(i, k)), at: [0.0; 3], rotation: None }
+                FramePoint { frame: self.frame(Source::Point(i, k)), at: [0.0; 3], rotation: None }
             } else {
-                Place { frame: self.frame(Source::Body(i)), at: local(&limb.centre, *point), rotation: None }
+                FramePoint { frame: self.frame(Source::Body(i)), at: local(&limb.centre, *point), rotation: None }
             });
         }
         let is_drawn = is_line || !limb.points.is_empty();
@@ -159,7 +159,7 @@ impl PageParts {
     fn link(&mut self, scene: &Snapshot, is_force: bool, number: usize, link: &Link) -> LinkPart {
         let ends = link.ends.iter().zip(&link.carriers).enumerate();
         let ends = ends.map(|(k, (end, body))| self.place(scene, *body, end, Source::End(is_force, number, k)));
-        let ends: Vec<Place> = ends.collect();
+        let ends: Vec<FramePoint> = ends.collect();
         let axis =
             link.axis.zip(link.ends.first()).map(|(Axis::Along(axis) | Axis::Turn(axis), end)| in_axes(end, axis));
         let radii = match link.wheel {
@@ -173,10 +173,10 @@ impl PageParts {
     }
 
     /// Returns the place of a marker: in the frame of its body, or in one of its own if the body deforms.
-    fn place(&mut self, scene: &Snapshot, body: Option<usize>, marker: &Pose, own: Source) -> Place {
+    fn place(&mut self, scene: &Snapshot, body: Option<usize>, marker: &Pose, own: Source) -> FramePoint {
         let Some(body) = body else { return relative(0, &WORLD, marker) };
         if scene.limbs[body].is_elastic {
-            return Place { frame: self.frame(own), at: [0.0; 3], rotation: None };
+            return FramePoint { frame: self.frame(own), at: [0.0; 3], rotation: None };
         }
         relative(self.frame(Source::Body(body)), &scene.limbs[body].centre, marker)
     }
@@ -204,9 +204,9 @@ fn local(frame: &Pose, point: [f64; 3]) -> [f32; 3] {
     in_axes(frame, sub(&point, &frame.r))
 }
 
-fn relative(number: usize, frame: &Pose, marker: &Pose) -> Place {
+fn relative(number: usize, frame: &Pose, marker: &Pose) -> FramePoint {
     let axes = marker.axes.map(|axis| frame.axes.map(|own| dot(&own, &axis)));
     let rotation = quaternion_from_axes(&axes).map(|x| x as f32);
     let is_turned = rotation[1..].iter().any(|x| *x != 0.0);
-    Place { frame: number, at: local(frame, marker.r), rotation: is_turned.then_some(rotation) }
+    FramePoint { frame: number, at: local(frame, marker.r), rotation: is_turned.then_some(rotation) }
 }

@@ -2,13 +2,13 @@
 
 use super::sample::{complex, descriptor, empty, plain, prepared};
 use holonom::linearize::{Branch, Complex, Kind};
-use holonom::plot::{AxisSpec, Figure, Form, Item, Panel, Style, Tint};
+use holonom::plot::{AxisSpec, Figure, Item, ItemForm, Panel, Style, Tint};
 use holonom::report::linear::{
     Magnitude, Response, bode_figure, frequency_figure, loci_figure, motion_figure, validation_figure,
 };
 use holonom::report::mechanism::{Look, View, mode_figure};
 use holonom::system::Names;
-use holonom::validate::{Curve, PerturbationSequence, decay};
+use holonom::validate::{ChangeCurve, PerturbationSequence, decay};
 use std::f64::consts::TAU;
 
 fn svg(figure: Option<Figure>) -> String {
@@ -127,7 +127,7 @@ fn the_half_plane_of_growth_is_shaded_and_zero_is_a_thin_line() {
     let up = panel.series.iter().find(|line| line.points == [(0.0, im.0), (0.0, im.1)]).unwrap();
     assert_eq!(up.style, Style::Thin);
     let stable = only(loci_figure("loci", "k1 (N/m)", &pair(Kind::Physical, |t| complex(-500.0 - t, 10.0 + t)), &[]));
-    assert!(stable.items.iter().all(|item| !matches!(item.form, Form::Area(_))));
+    assert!(stable.items.iter().all(|item| !matches!(item.form, ItemForm::Area(_))));
 }
 
 #[test]
@@ -207,13 +207,13 @@ fn only(figure: Option<Figure>) -> Panel {
     panels.remove(0)
 }
 
-fn note(text: &str) -> Form {
-    Form::Note(text.into())
+fn note(text: &str) -> ItemForm {
+    ItemForm::Note(text.into())
 }
 
 /// Corners of the shaded part of a panel.
 fn shaded(panel: &Panel) -> Vec<(f64, f64)> {
-    let mut areas = panel.items.iter().filter(|item| matches!(item.form, Form::Area(_)));
+    let mut areas = panel.items.iter().filter(|item| matches!(item.form, ItemForm::Area(_)));
     let (Some(Item { spots, .. }), None) = (areas.next(), areas.next()) else { panic!("{:?}", panel.items) };
     spots.iter().map(|spot| spot.at).collect()
 }
@@ -274,13 +274,13 @@ fn validation_shows_orders_and_predictions() {
         let v: Vec<String> = names.iter().map(|name| name.to_string()).collect();
         Names { q: Vec::new(), v, lambda: Vec::new() }
     };
-    let curve = |direction: usize, size: f64| Curve {
+    let curve = |direction: usize, size: f64| ChangeCurve {
         direction,
         simulated: vec![0.0, size, 2.0 * size],
         ltv: vec![0.0, size, 2.1 * size],
         lti: vec![0.0, size, f64::NAN],
     };
-    let sequence = |curves: Vec<Curve>| PerturbationSequence {
+    let sequence = |curves: Vec<ChangeCurve>| PerturbationSequence {
         direction: "random".to_string(),
         errors_lti: epsilons.clone(),
         order_ltv: decay(&epsilons, &errors_ltv, |_| 1.0, 0.0),

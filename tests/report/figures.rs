@@ -1,6 +1,6 @@
 //! Figures of a run.
 
-use holonom::analysis::{Drift, Ledger, Range, Record, Singularity, WorstRow, WorstStep};
+use holonom::analysis::{Drift, Ledger, Record, Singularity, ValidityRange, WorstRow, WorstStep};
 use holonom::report::{Shown, drift_figure, energy_figure, outputs_figure};
 use holonom::system::{Column, Names};
 use holonom::trajectory::Trajectory;
@@ -27,7 +27,7 @@ fn record(drift: impl Fn(f64) -> f64, kinetic: impl Fn(f64) -> f64, potential: i
         drift: Drift::default(),
         energy: None,
         singularity: Singularity::default(),
-        range: Range::default(),
+        range: ValidityRange::default(),
         drift_rows: times.iter().map(|t| [drift(*t); 3]).collect(),
         ledger_rows: times.iter().map(ledger).collect(),
     }

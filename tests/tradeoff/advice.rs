@@ -2,7 +2,7 @@
 
 use super::{filter, measured, motion, plan};
 use crate::scenes::shipped;
-use holonom::study::work_precision::{Filter, Outcome, Plan, WorkPrecision};
+use holonom::study::work_precision::{Filter, Outcome, TradeoffPlan, WorkPrecision};
 
 /// A beam that is stiff and undamped: an explicit method takes thousands of times the steps of an implicit one.
 #[test]
@@ -56,7 +56,7 @@ fn advice_does_not_depend_on_the_load() {
     for (name, end) in [("slider_crank", 0.5), ("five_link_suspension", 0.5), ("andrews", 0.03)] {
         let scene = shipped(name, &[]);
         let formulations = ["index1", "baumgarte:alpha=5,beta=5", "force_projection:position=1,velocity=1"];
-        let plan: Plan = plan(&filter(&formulations, &["rk4", "dopri5", "dop853"], &[]), 60_000);
+        let plan: TradeoffPlan = plan(&filter(&formulations, &["rk4", "dopri5", "dop853"], &[]), 60_000);
         let idle = measured(motion(&scene, end), &plan, &[]);
         for seed in 0..10 {
             let mut busy = idle.clone();

@@ -8,7 +8,9 @@ mod scale;
 use crate::common::{method, readings};
 use crate::scenes::{Ready, shipped};
 use holonom::simulate::{Method, Span};
-use holonom::study::work_precision::{Cell, Filter, Outcome, Plan, Runner, WorkPrecision, cheapest_by_method, grid};
+use holonom::study::work_precision::{
+    Cell, Filter, Outcome, Runner, TradeoffPlan, WorkPrecision, cheapest_by_method, grid,
+};
 use holonom::study::{Motion, RunSample, Watched};
 use std::time::Duration;
 
@@ -47,8 +49,8 @@ pub fn filter(formulations: &[&str], integrators: &[&str], projections: &[&str])
 }
 
 /// Within a budget of so many steps and rows.
-pub fn plan(filter: &Filter, budget: u32) -> Plan {
-    Plan {
+pub fn plan(filter: &Filter, budget: u32) -> TradeoffPlan {
+    TradeoffPlan {
         triples: grid(filter).unwrap(),
         budget: readings(budget),
         repeats: 3,
@@ -63,7 +65,7 @@ pub fn fresh(motion: &Motion) -> WorkPrecision {
     WorkPrecision::fresh("test", motion.span.start, motion.span.end, ROWS)
 }
 
-pub fn measured(motion: Motion, plan: &Plan, outputs: &[&str]) -> WorkPrecision {
+pub fn measured(motion: Motion, plan: &TradeoffPlan, outputs: &[&str]) -> WorkPrecision {
     let mut result = fresh(&motion);
     Runner::new(watching(motion, outputs), plan, |_, _| ()).run(&mut result).unwrap();
     result

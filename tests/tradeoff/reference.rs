@@ -4,7 +4,7 @@ use super::{ROWS, filter, fresh, measured, motion, plan, span, watching};
 use crate::common::unconstrained::Exponential;
 use crate::scenes::shipped;
 use holonom::analysis::Sizes;
-use holonom::study::work_precision::{Given, Plan, Runner};
+use holonom::study::work_precision::{GivenValues, Runner, TradeoffPlan};
 use holonom::study::{ErrorMetric, Motion, SecondOpinion, Watched};
 use holonom::system::Column;
 
@@ -55,11 +55,12 @@ fn a_table_of_values_is_compared_with() {
     let scene = shipped("two_mass", &[]);
     let motion = motion(&scene, 5.0);
     let exact = 0.1 * 25f64.cos();
-    let table = |x1: f64| Given::parse("table", &format!("t, x1, other\n0, 0.1, 0\n5, {x1:.17}, 1\n")).unwrap();
-    let measure = |given: Given| {
+    let table = |x1: f64| GivenValues::parse("table", &format!("t, x1, other\n0, 0.1, 0\n5, {x1:.17}, 1\n")).unwrap();
+    let measure = |given: GivenValues| {
         let rows = given.parts(0.0, 5.0, ROWS).unwrap();
         assert_eq!(rows, 1);
-        let plan = Plan { given: Some(given), rows, ..plan(&filter(&["index1"], &["dop853"], &["manifold"]), 20_000) };
+        let plan =
+            TradeoffPlan { given: Some(given), rows, ..plan(&filter(&["index1"], &["dop853"], &["manifold"]), 20_000) };
         let mut result = fresh(&motion);
         result.rows = rows;
         Runner::new(watching(motion.clone(), &["x1"]), &plan, |_, _| ()).run(&mut result).unwrap();
@@ -77,15 +78,15 @@ fn a_table_of_values_is_compared_with() {
 
 #[test]
 fn tables_that_are_none_are_refused() {
-    let problem = |text: &str| Given::parse("table", text).unwrap_err().to_string();
+    let problem = |text: &str| GivenValues::parse("table", text).unwrap_err().to_string();
     assert!(problem("x1\n3\n").contains("no column `t`"));
     assert!(problem("t,x1\n0,one\n").contains("`one`, which is no number"));
     assert!(problem("t,x1\n0,nan\n").contains("no number"));
     assert!(problem("t,x1\n0,1,2\n").contains("no table"));
-    let early = Given::parse("table", "t,x1\n0,1\n1,2\n").unwrap();
+    let early = GivenValues::parse("table", "t,x1\n0,1\n1,2\n").unwrap();
     assert!(early.parts(0.0, 5.0, ROWS).unwrap_err().to_string().contains("no values at the end"));
     assert_eq!(early.names().collect::<Vec<_>>(), ["x1"]);
-    let fine = Given::parse("table", "t,x1\n0,1\n0.25,1\n0.5,1\n0.75,1\n1,2\n").unwrap();
+    let fine = GivenValues::parse("table", "t,x1\n0,1\n0.25,1\n0.5,1\n0.75,1\n1,2\n").unwrap();
     assert_eq!([1, 2, 3, 4, 9].map(|most| fine.parts(0.0, 1.0, most).unwrap()), [1, 2, 2, 4, 4]);
 }
 

@@ -4,7 +4,7 @@ use crate::error::{Warning, percent, short};
 
 /// An end of a signal beyond which its value is kept.
 #[derive(Clone, Debug, PartialEq)]
-pub struct End {
+pub struct SignalEnd {
     /// Number of the switching function that is the signal's argument.
     pub number: usize,
     pub signal: String,
@@ -20,10 +20,10 @@ pub struct End {
     from: f64,
 }
 
-impl End {
+impl SignalEnd {
     /// The end at an argument `at` where the signal has a value, before the first row.
     pub fn new(number: usize, signal: String, at: f64, sign: f64, value: f64) -> Self {
-        End { number, signal, at, sign, value, beyond: 0.0, seconds: 0.0, from: f64::INFINITY }
+        SignalEnd { number, signal, at, sign, value, beyond: 0.0, seconds: 0.0, from: f64::INFINITY }
     }
 
     /// Adds the argument at the row at `t`, which follows that at `before`.
@@ -68,7 +68,7 @@ mod tests {
     #[test]
     fn the_time_beyond_an_end_is_that_of_lines() {
         for (sign, seconds, from) in [(1.0, 1.5, 0.5), (-1.0, 0.5, 0.0)] {
-            let mut end = End::new(0, "f".to_string(), 0.0, sign, 0.0);
+            let mut end = SignalEnd::new(0, "f".to_string(), 0.0, sign, 0.0);
             end.add(None, 0.0, -5.0);
             end.add(Some(0.0), 0.8, 3.0);
             end.add(Some(0.8), 2.0, 15.0);

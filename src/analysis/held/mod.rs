@@ -6,12 +6,12 @@ use crate::error::Warning;
 use crate::math::Rate;
 use crate::simulate::Observation;
 use crate::system::{MechanicalSystem, OperatingPoint, Scratch};
-use end::End;
+use end::SignalEnd;
 
 /// The signals of a system that keep the value of an end where measured data end, and for how long they do.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct HeldSignals {
-    ends: Vec<End>,
+    ends: Vec<SignalEnd>,
     arguments: Vec<Rate>,
     /// Time of the first and of the last row, s.
     span: Option<(f64, f64)>,
@@ -28,7 +28,7 @@ impl HeldSignals {
             for (is_last, at, sign) in [(false, first, -1.0), (true, last, 1.0)] {
                 let Some(value) = signal.cut_off(is_last) else { continue };
                 let signal = signal.name().to_string();
-                ends.push(End::new(number, signal, at, sign, value));
+                ends.push(SignalEnd::new(number, signal, at, sign, value));
             }
         }
         let arguments = if ends.is_empty() { Vec::new() } else { vec![Rate::fixed(0.0); switches.len()] };
@@ -54,7 +54,7 @@ impl HeldSignals {
         let Some((first, last)) = self.span else { return Vec::new() };
         // Most of the run.
         let longest = 0.5 * (last - first);
-        let mut named: Vec<&End> = Vec::new();
+        let mut named: Vec<&SignalEnd> = Vec::new();
         for end in self.ends.iter().filter(|end| end.seconds > longest) {
             if named.iter().all(|other| other.signal != end.signal) {
                 named.push(end);

@@ -5,7 +5,7 @@
 //! the motion takes for that distance. So if the motion left its branch, the velocities before and after, at a small
 //! multiple of the least distance, differ by order one from the integral of smooth accelerations.
 
-use super::Branch;
+use super::SingularityBranch;
 use super::path::PathPoint;
 use super::survey::Survey;
 use crate::math::array::Each;
@@ -60,7 +60,12 @@ impl Turning {
 
     /// Adds an accepted state, given with the two before it, and judges the singular state before it once it is far
     /// enough behind.
-    pub fn add(&mut self, states: &[PathPoint; 3], largest: f64, survey: &mut Survey) -> Option<(usize, Branch)> {
+    pub fn add(
+        &mut self,
+        states: &[PathPoint; 3],
+        largest: f64,
+        survey: &mut Survey,
+    ) -> Option<(usize, SingularityBranch)> {
         let [before @ .., now] = states;
         let falls = now.rank_indicator < before[1].rank_indicator;
         if now.rank_indicator > tolerances::PLACED_STEPS * largest {
@@ -77,7 +82,7 @@ impl Turning {
     }
 
     /// Judges the last singular state by the states after it, if there are any.
-    pub fn judge(&mut self, survey: &mut Survey) -> Option<(usize, Branch)> {
+    pub fn judge(&mut self, survey: &mut Survey) -> Option<(usize, SingularityBranch)> {
         let open = self.open.take_if(|open| !open.after.is_empty())?;
         Some((open.passing, open.judge(survey)))
     }
@@ -102,8 +107,8 @@ impl Open {
 
     /// Compares v_1 - v_0 with the integral of v', in the metric of M, by the polynomial through v' at up to four
     /// states.
-    fn judge(&self, survey: &mut Survey) -> Branch {
-        let (Some(from), Some(to)) = (self.before.last(), self.after.first()) else { return Branch::Open };
+    fn judge(&self, survey: &mut Survey) -> SingularityBranch {
+        let (Some(from), Some(to)) = (self.before.last(), self.after.first()) else { return SingularityBranch::Open };
         let nodes: Vec<&PathPoint> = self.before.iter().chain(&self.after).collect();
         let change = integral(&nodes, from.t, to.t);
         let lower = integral(&[from, to], from.t, to.t);
@@ -115,9 +120,9 @@ impl Open {
         // steps both do.
         let smooth = 0.1 * size + (3.0 * doubt).min(0.5 * size);
         match jump {
-            _ if size <= 0.0 => Branch::Open,
-            jump if (jump > smooth || jump.is_nan()) && self.may_turn => Branch::Left,
-            _ => Branch::Kept,
+            _ if size <= 0.0 => SingularityBranch::Open,
+            jump if (jump > smooth || jump.is_nan()) && self.may_turn => SingularityBranch::Left,
+            _ => SingularityBranch::Kept,
         }
     }
 }

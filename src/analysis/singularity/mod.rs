@@ -55,13 +55,13 @@ pub struct Passing {
     /// Joints with rows that depend, or nearly depend, on each other there; empty for large systems.
     pub joints: Vec<String>,
     /// Behaviour of the motion.
-    pub branch: Branch,
+    pub branch: SingularityBranch,
 }
 
 /// Behaviour of a motion at a singular state.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
-pub enum Branch {
+pub enum SingularityBranch {
     /// It went on smoothly.
     Kept,
     /// Its velocity jumped: errors turned it to another branch.
@@ -74,7 +74,7 @@ impl Singularity {
     /// Returns the first state at which the motion left its branch.
     #[doc(hidden)]
     pub fn left(&self) -> Option<&Passing> {
-        self.passed.iter().find(|passing| passing.branch == Branch::Left)
+        self.passed.iter().find(|passing| passing.branch == SingularityBranch::Left)
     }
 
     /// Returns the failure of a run whose motion left its branch, so that the result is not the motion of the scene.
@@ -106,7 +106,7 @@ impl Singularity {
 const MOST_PASSED: usize = 1000;
 
 /// Detects singular states along a motion.
-pub struct Watch<'a> {
+pub struct SingularityWatch<'a> {
     survey: Survey<'a>,
     /// Number of velocities that move q.
     moving: usize,
@@ -118,10 +118,10 @@ pub struct Watch<'a> {
     found: Singularity,
 }
 
-impl<'a> Watch<'a> {
+impl<'a> SingularityWatch<'a> {
     /// A watch that has seen no state.
     pub fn new(system: &'a dyn MechanicalSystem) -> Self {
-        Watch {
+        SingularityWatch {
             survey: Survey::new(system),
             moving: system.dimensions().moving(),
             last: Default::default(),
@@ -152,7 +152,7 @@ impl<'a> Watch<'a> {
     }
 
     /// Records the behaviour of the motion at a singular state.
-    fn settle(&mut self, judged: Option<(usize, Branch)>) {
+    fn settle(&mut self, judged: Option<(usize, SingularityBranch)>) {
         if let Some((passing, branch)) = judged
             && let Some(passed) = self.found.passed.get_mut(passing)
         {
@@ -181,7 +181,7 @@ impl<'a> Watch<'a> {
         let passed = &mut self.found.passed;
         if passed
             .get(passing)
-            .is_some_and(|p| p.branch != Branch::Left && p.rank_indicator > tolerances::TOLD * self.largest)
+            .is_some_and(|p| p.branch != SingularityBranch::Left && p.rank_indicator > tolerances::TOLD * self.largest)
         {
             passed.remove(passing);
             self.found.count -= 1;
@@ -232,7 +232,8 @@ impl<'a> Watch<'a> {
         );
         let regular_rank = self.survey.regular_rank();
         let rank = if is_singular { lost } else { Some(regular_rank) };
-        let passing = Passing { t, rank_indicator, is_singular, rank, regular_rank, joints, branch: Branch::Open };
+        let passing =
+            Passing { t, rank_indicator, is_singular, rank, regular_rank, joints, branch: SingularityBranch::Open };
         self.found.count += 1;
         if self.found.passed.len() < MOST_PASSED {
             self.found.passed.push(passing);

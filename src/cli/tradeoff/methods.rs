@@ -10,14 +10,14 @@ use crate::report::tradeoff::MethodsAnswer;
 use crate::report::{Folder, write_whole};
 use crate::scene;
 use crate::study::Motion;
-use crate::study::work_precision::{Given, Lack, Runner, WorkPrecision};
+use crate::study::work_precision::{GivenValues, Lack, Runner, WorkPrecision};
 use std::hash::{DefaultHasher, Hash, Hasher};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use std::time::{Duration, Instant};
 
 pub fn run(args: &Args, prepared: &Model) -> Result<ExitCode> {
-    let given = args.reference(prepared).as_deref().map(Given::read).transpose()?;
+    let given = args.reference(prepared).as_deref().map(GivenValues::read).transpose()?;
     let question = args.question(prepared, args.budget, given)?;
     let folder = args.output.folder(&prepared.name)?;
     let place = folder.path().join("tradeoff.json");

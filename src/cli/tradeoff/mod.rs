@@ -9,7 +9,7 @@ use crate::error::Result;
 use crate::method_spec::MethodSpec;
 use crate::prepared::{Model, Overrides};
 use crate::study::Watched;
-use crate::study::work_precision::{Filter, Given, Plan, grid};
+use crate::study::work_precision::{Filter, GivenValues, TradeoffPlan, grid};
 use crate::system::MechanicalSystem;
 use crate::trajectory::recorded;
 use crate::{formulation, projection};
@@ -68,7 +68,7 @@ pub struct Args {
     /// auto: models that `simplify` finds for 10 %, 1 % and 0.1 %, each by all methods; errors of model and method
     /// together
     #[arg(long, value_name = "auto", value_enum, conflicts_with_all = ["variants", "reference", "resume"])]
-    models: Option<Models>,
+    models: Option<ModelChoice>,
     #[command(flatten)]
     output: Output,
     #[command(flatten)]
@@ -76,7 +76,7 @@ pub struct Args {
 }
 
 #[derive(Clone, Copy, Debug, ValueEnum)]
-enum Models {
+enum ModelChoice {
     Auto,
 }
 
@@ -84,7 +84,7 @@ pub fn run(args: Args) -> Result<ExitCode> {
     let prepared = args.talk.load(&args.scene.path, &args.overrides())?;
     prepared.span().map_err(|error| error.in_file(&args.scene.path))?;
     match (args.models, args.variants.is_empty()) {
-        (Some(Models::Auto), _) => auto::run(&args, prepared),
+        (Some(ModelChoice::Auto), _) => auto::run(&args, prepared),
         (None, true) => methods::run(&args, &prepared),
         (None, false) => models::run(&args, prepared.settled()?),
     }
@@ -93,12 +93,12 @@ pub fn run(args: Args) -> Result<ExitCode> {
 /// Quantities, methods and times of a measurement.
 struct Question {
     watched: Watched,
-    plan: Plan,
+    plan: TradeoffPlan,
 }
 
 impl Args {
     /// Returns what to measure of a scene within `budget`; against these values, if they are given.
-    fn question(&self, prepared: &Model, budget: Duration, given: Option<Given>) -> Result<Question> {
+    fn question(&self, prepared: &Model, budget: Duration, given: Option<GivenValues>) -> Result<Question> {
         let span = prepared.span()?;
         let system = prepared.system();
         let rows = usize::from(self.rows);
@@ -111,7 +111,7 @@ impl Args {
             integrators: self.integrator.clone(),
             projections: self.projection.clone(),
         };
-        let plan = Plan {
+        let plan = TradeoffPlan {
             triples: grid(&filter)?,
             budget,
             repeats: usize::from(self.repeats),
@@ -123,7 +123,7 @@ impl Args {
         Ok(Question { watched, plan })
     }
 
-    fn outputs(&self, prepared: &Model, given: Option<&Given>) -> Vec<String> {
+    fn outputs(&self, prepared: &Model, given: Option<&GivenValues>) -> Vec<String> {
         let known = recorded(prepared.system());
         let has = |name: &&str| known.iter().any(|column| column.name == **name);
         match given {

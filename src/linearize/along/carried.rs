@@ -9,7 +9,7 @@ use crate::tolerances;
 
 /// A chart at the start and its continuation along the motion: constant charts stay, as all do at an equilibrium; the
 /// basis of the intrinsic one is transported parallel, in the same steps as the motion.
-pub struct Carried<'a> {
+pub struct CarriedChart<'a> {
     system: &'a dyn MechanicalSystem,
     pub start: Coordinates,
     moves: bool,
@@ -17,7 +17,7 @@ pub struct Carried<'a> {
     is_over: &'a dyn Fn() -> bool,
 }
 
-impl<'a> Carried<'a> {
+impl<'a> CarriedChart<'a> {
     /// The chart at a state.
     ///
     /// # Errors
@@ -25,7 +25,7 @@ impl<'a> Carried<'a> {
     pub fn new(variation: &mut Variation<'a>, chart: &Chart, is_over: &'a dyn Fn() -> bool) -> Result<Self> {
         let start = chart.at(variation)?;
         let moves = *chart == Chart::Intrinsic && start.r.ncols() > 0 && !variation.point.is_equilibrium;
-        Ok(Carried { system: variation.system(), start, moves, is_over })
+        Ok(CarriedChart { system: variation.system(), start, moves, is_over })
     }
 
     /// Returns the motions of a bundle at these times (increasing, after the start): at the first ones alone where the

@@ -5,7 +5,7 @@ mod course;
 mod measure;
 mod within;
 
-pub(crate) use carried::Carried;
+pub(crate) use carried::CarriedChart;
 pub use measure::{Deviation, MeasuredA};
 pub use within::within;
 
@@ -191,7 +191,7 @@ impl Pass<'_> {
     }
 }
 
-fn built(variation: &mut Variation, chart: Coordinates) -> Result<super::entry::Built> {
+fn built(variation: &mut Variation, chart: Coordinates) -> Result<super::entry::LinearMatrices> {
     if variation.has_drivers() {
         variation.prescribed()?;
     }

@@ -87,7 +87,7 @@ pub struct Snapshot {
 
 /// Sizes of the flat state y = (q_0, dq_1 .. dq_k, n_1 .. n_b, q_1 .. q_p; v_0, dv_1 .. dv_k, v_1 .. v_p; work).
 #[derive(Clone, Copy, Debug)]
-pub struct Shape {
+pub struct FlowSizes {
     pub q: usize,
     pub v: usize,
     pub columns: usize,
@@ -101,10 +101,16 @@ pub struct Carrier<'a> {
     dimensions: Dimensions,
 }
 
-impl Shape {
+impl FlowSizes {
     pub fn of(system: &dyn MechanicalSystem, bundle: &Bundle) -> Self {
         let Dimensions { q, v, .. } = system.dimensions();
-        Shape { q, v, columns: bundle.columns.q.ncols(), basis: bundle.basis.ncols(), members: bundle.members.len() }
+        FlowSizes {
+            q,
+            v,
+            columns: bundle.columns.q.ncols(),
+            basis: bundle.basis.ncols(),
+            members: bundle.members.len(),
+        }
     }
 
     pub fn carrier<'a>(&self, system: &'a dyn MechanicalSystem) -> Carrier<'a> {

@@ -1,6 +1,6 @@
 //! Right-hand side of the equations of a bundle.
 
-use super::bundle::{Bundle, Pulse, Shape};
+use super::bundle::{Bundle, FlowSizes, Pulse};
 use crate::error::Result;
 use crate::formulation::{Dynamics, Formulation, StepError};
 use crate::linearize::{Changes, Matrix, Variation};
@@ -8,7 +8,7 @@ use crate::system::{Excitation, LeviCivita, MechanicalSystem, OperatingPoint};
 
 /// The equations of index 1 for the motion and its members, the variational equations for the columns.
 pub struct VariationalField<'a> {
-    shape: Shape,
+    shape: FlowSizes,
     variation: Variation<'a>,
     /// Equations of the members, or of all of them.
     plain: Vec<Dynamics<'a>>,
@@ -27,7 +27,7 @@ impl<'a> VariationalField<'a> {
     pub fn new(
         system: &'a dyn MechanicalSystem,
         members: &[&'a dyn MechanicalSystem],
-        shape: &Shape,
+        shape: &FlowSizes,
         bundle: &Bundle,
         dependent: &[usize],
     ) -> Result<Self> {
@@ -163,7 +163,7 @@ impl Formulation for VariationalField<'_> {
         qdot: &mut [f64],
         vdot: &mut [f64],
     ) -> Result<(), StepError> {
-        let Shape { q: nq, v: nv, columns, basis, members } = self.shape;
+        let FlowSizes { q: nq, v: nv, columns, basis, members } = self.shape;
         let [q0, dq, n, qs] = self.shape.parts(q);
         let [v0, dv, vs] = self.shape.rates(v);
         let (qdot0, qdot) = qdot.split_at_mut(nq);

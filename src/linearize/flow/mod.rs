@@ -17,7 +17,7 @@ use crate::projection::Projection;
 use crate::simulate::{Observation, RunParts, Segments, Sink, Stop};
 use crate::system::MechanicalSystem;
 use crate::tolerances;
-use bundle::Shape;
+use bundle::FlowSizes;
 use field::VariationalField;
 use projection::Straightening;
 use pushed::Pushed;
@@ -53,7 +53,7 @@ pub fn flow_until(
     is_over: &dyn Fn() -> bool,
     mut see: impl FnMut(&mut Snapshot) -> bool,
 ) -> Result<()> {
-    let shape = Shape::of(system, bundle);
+    let shape = FlowSizes::of(system, bundle);
     let carrier = shape.carrier(system);
     let push = |amplitude: &f64| Pushed::new(system, bundle.pulse?, *amplitude);
     let pushed: Vec<Pushed> = bundle.pushes.iter().filter_map(push).collect();

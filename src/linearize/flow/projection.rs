@@ -1,6 +1,6 @@
 //! Projection of a bundle after each step.
 
-use super::bundle::{Bundle, Pulse, Shape};
+use super::bundle::{Bundle, FlowSizes, Pulse};
 use crate::error::Result;
 use crate::formulation::{Dynamics, StepError};
 use crate::method_spec::MethodSpec;
@@ -9,7 +9,7 @@ use crate::system::{Excitation, MechanicalSystem, Need};
 
 /// Projects the motion and its members onto the constraints, and the columns onto their tangent space there.
 pub struct Straightening<'a> {
-    shape: Shape,
+    shape: FlowSizes,
     /// Of the motion, then of the members, or of all of them.
     closers: Vec<Closer<'a>>,
     /// The pulse with the row that it moves and the amplitude of each column.
@@ -44,7 +44,7 @@ impl<'a> Straightening<'a> {
     pub fn new(
         system: &'a dyn MechanicalSystem,
         members: &[&'a dyn MechanicalSystem],
-        shape: &Shape,
+        shape: &FlowSizes,
         bundle: &Bundle,
         dependent: &[usize],
     ) -> Result<Self> {
@@ -106,7 +106,7 @@ impl<'a> Straightening<'a> {
 impl Projection for Straightening<'_> {
     fn project(&mut self, t: f64, q: &mut [f64], v: &mut [f64], carrier: &mut Dynamics) -> Result<(), StepError> {
         self.closers.iter_mut().for_each(|closer| closer.dynamics.kkt.rank_reference = carrier.kkt.rank_reference);
-        let Shape { q: nq, v: nv, columns, basis, members } = self.shape;
+        let FlowSizes { q: nq, v: nv, columns, basis, members } = self.shape;
         let (q0, q) = q.split_at_mut(nq);
         let (v0, v) = v.split_at_mut(nv);
         self.closers[0].close(t, q0, v0)?;

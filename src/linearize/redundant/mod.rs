@@ -3,7 +3,7 @@
 mod pencil;
 mod rounding;
 
-use super::entry::{Built, LinearizationMethod};
+use super::entry::{LinearMatrices, LinearizationMethod};
 use crate::error::{Error, Result};
 use crate::formulation::{self, Dae};
 use crate::method_spec::{MethodSpec, OptionDoc};

@@ -1,6 +1,6 @@
 //! The pencils (E, A) of the formulations with multipliers.
 
-use super::Built;
+use super::LinearMatrices;
 use super::rounding::PencilParts;
 use crate::error::Result;
 use crate::formulation::{Dae, DaeRow};
@@ -33,7 +33,7 @@ struct Pencil {
 }
 
 /// Returns (E, A), B, C and D in x = (dq, dv, dlambda), followed by deta and dmu where the equations have them.
-pub fn build(dae: &Dae, variation: &mut Variation) -> Result<Built> {
+pub fn build(dae: &Dae, variation: &mut Variation) -> Result<LinearMatrices> {
     let independent = variation.independent_rows();
     let n = variation.velocities();
     let m = independent.len();
@@ -96,7 +96,7 @@ fn observe(
     independent: &[usize],
     perturbation: &Perturbation,
     pencil: Pencil,
-) -> Result<Built> {
+) -> Result<LinearMatrices> {
     let Pencil { e, a, driven, b } = pencil;
     let n = variation.velocities();
     let size = a.nrows();
@@ -122,7 +122,8 @@ fn observe(
     let chart = REDUNDANT.to_string();
     let infinite = infinite(dae, independent.len());
     let input_states = InputStates { orders: variation.orders(), a: driven, c: seen };
-    let built = Built { chart, states, a, b, c, d, e: Some(e), input_states, changes, coordinates: None, infinite };
+    let built =
+        LinearMatrices { chart, states, a, b, c, d, e: Some(e), input_states, changes, coordinates: None, infinite };
     Ok(built.without_integrals(variation.system().dimensions()))
 }
 

@@ -3,7 +3,7 @@
 use super::changes;
 use crate::error::Result;
 use crate::linearize::changes::beside;
-use crate::linearize::entry::Built;
+use crate::linearize::entry::LinearMatrices;
 use crate::linearize::perturbation::Perturbation;
 use crate::linearize::response::observe;
 use crate::linearize::spectrum::refused;
@@ -20,7 +20,7 @@ pub fn add_residual<'a>(
     equations: &'a Quadratic,
     turn: &Sparse,
     found: &mut Found<'a>,
-    built: &mut Built,
+    built: &mut LinearMatrices,
     forces: &Matrix,
 ) -> Result<()> {
     if forces.ncols() == 0 || built.c.nrows() == 0 {

@@ -4,7 +4,7 @@ mod equations;
 mod gain;
 
 use super::changes::beside;
-use super::entry::Built;
+use super::entry::LinearMatrices;
 use super::input_states::InputStates;
 use super::perturbation::Perturbation;
 use super::response::observe;
@@ -20,8 +20,6 @@ use std::time::Instant;
 /// Residual of a mode that is returned, with the operator of the search. Unit: `[1]` of |theta x|. Why: rounding in K
 /// is some 1e-16 of the square of the fastest rate over the square of that of the mode, and nothing makes up for it.
 const MODE_RESIDUAL: f64 = 1e-4;
-
-type C = Complex<f64>;
 
 /// Returns the `count` modes nearest to `shift`, in 1/s (0: the slowest ones), as a model in modal coordinates. A
 /// conjugate pair is one mode. Fewer come where the mechanism has fewer, and more where one has no eigenvector of its
@@ -52,7 +50,7 @@ pub fn modal(variation: &mut Variation, count: usize, shift: Complex<f64>) -> Re
     let turn = equations::turn(variation);
     let equations = equations::equations(variation, &turn);
     check(&equations, count, shift)?;
-    let shift = C::new(shift.re, shift.im.abs());
+    let shift = Complex::new(shift.re, shift.im.abs());
     let adjoint = equations.transposed();
     let assembly = clock.elapsed().as_secs_f64();
     let clock = Instant::now();
@@ -72,7 +70,7 @@ pub fn modal(variation: &mut Variation, count: usize, shift: Complex<f64>) -> Re
     finish(variation, &mut found, built, assembly, eigen)
 }
 
-fn check(equations: &Quadratic, count: usize, shift: C) -> Result<()> {
+fn check(equations: &Quadratic, count: usize, shift: Complex<f64>) -> Result<()> {
     if count == 0 {
         return Err(Error::input("no mode is asked for").under("--modes").hint("ask for 1 or more"));
     }
@@ -106,7 +104,12 @@ fn changes(variation: &Variation, turn: &Sparse, space: &Space) -> Changes {
 
 /// Adds inputs and outputs. Returns also the forces of a unit of each state of the inputs and of each input: with
 /// dq = p + P u for what drivers prescribe, -(M P u'' + C P u' + K P u) is one.
-fn build(variation: &mut Variation, equations: &Quadratic, turn: &Sparse, modal: Modal) -> Result<(Built, Matrix)> {
+fn build(
+    variation: &mut Variation,
+    equations: &Quadratic,
+    turn: &Sparse,
+    modal: Modal,
+) -> Result<(LinearMatrices, Matrix)> {
     let n = equations.len();
     let changes = changes(variation, turn, &modal.space);
     let lift = Lift::frozen(variation, &Matrix::zeros(n, 0), &Matrix::zeros(0, n))?;
@@ -131,7 +134,19 @@ fn build(variation: &mut Variation, equations: &Quadratic, turn: &Sparse, modal:
     let c = outputs.state;
     let d = outputs.inputs;
     Ok((
-        Built { chart, states, a: modal.a, b, c, d, e: None, input_states, changes, coordinates: None, infinite: 0 },
+        LinearMatrices {
+            chart,
+            states,
+            a: modal.a,
+            b,
+            c,
+            d,
+            e: None,
+            input_states,
+            changes,
+            coordinates: None,
+            infinite: 0,
+        },
         forces,
     ))
 }
@@ -140,14 +155,14 @@ fn build(variation: &mut Variation, equations: &Quadratic, turn: &Sparse, modal:
 fn finish(
     variation: &mut Variation,
     found: &mut Found,
-    built: Built,
+    built: LinearMatrices,
     assembly_seconds: f64,
     eigen_seconds: f64,
 ) -> Result<LinearModel> {
     let t = variation.point.t;
     let (modes, vectors, conditioning) = modes_of(variation, &built).map_err(|unsolved| refused(t, &unsolved))?;
     let shapes = built.shapes(variation.system().dimensions());
-    let space = [shapes.map(C::from), free_rates(variation, &built, &shapes).map(C::from)];
+    let space = [shapes.map(Complex::from), free_rates(variation, &built, &shapes).map(Complex::from)];
     for (mode, vector) in modes.iter().zip(vectors.column_iter()) {
         let [p, u] = [&space[0] * vector, &space[1] * vector];
         let residual = found.operator.residual(mode.value, p.iter().chain(u.iter()).copied());
@@ -162,7 +177,7 @@ fn finish(
 }
 
 /// Returns s dq = dv - [v, dq] of each state, and s dxi, which is that of its `shapes`.
-fn free_rates(variation: &Variation, built: &Built, shapes: &Matrix) -> Matrix {
+fn free_rates(variation: &Variation, built: &LinearMatrices, shapes: &Matrix) -> Matrix {
     let mut rates = &built.changes.v - variation.bracket_with(&built.changes.q);
     let n = variation.system().dimensions();
     rates.rows_mut(n.moving(), n.states).copy_from(&(shapes.rows(n.moving(), n.states) * &built.a));

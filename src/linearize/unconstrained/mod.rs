@@ -11,7 +11,7 @@ pub(super) use force_projection::FORCE_PROJECTION;
 pub(super) use penalty::{AUGMENTED_LAGRANGIAN, PENALTY};
 
 use super::changes::directions;
-use super::entry::{Built, Linear};
+use super::entry::{Linear, LinearMatrices};
 use super::input_states::InputStates;
 use super::minimal::restrict;
 use super::model::REDUNDANT;
@@ -33,7 +33,7 @@ fn build(
     variation: &mut Variation,
     request: &Linear,
     response: impl FnOnce(&mut Variation, &Perturbation) -> Result<Response>,
-) -> Result<Built> {
+) -> Result<LinearMatrices> {
     if request.method.one_of("projected", &["no", "yes"])? == "yes" {
         let coordinates = request.chart(variation).at(variation)?;
         return Ok(restrict(variation, coordinates, response)?.built);
@@ -56,5 +56,5 @@ fn build(
     let d = outputs.inputs;
     let states = directions(variation.system(), &variation.point.q).states();
     let chart = REDUNDANT.to_string();
-    Ok(Built { chart, states, a, b, c, d, e: None, input_states, changes, coordinates: None, infinite: 0 })
+    Ok(LinearMatrices { chart, states, a, b, c, d, e: None, input_states, changes, coordinates: None, infinite: 0 })
 }

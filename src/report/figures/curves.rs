@@ -3,7 +3,7 @@
 use super::{grouped, label, quantity};
 use crate::error::clock;
 use crate::math::{bounds, largest};
-use crate::plot::{Form, Item, Panel, Series, Spot, Tint};
+use crate::plot::{Item, ItemForm, Panel, Series, Spot, Tint};
 
 /// A curve of a figure, with the name and the unit of its quantity.
 pub(in crate::report) struct Curve<'a> {
@@ -165,7 +165,7 @@ fn band(curve: &Curve, origin: f64, color: usize) -> Item {
     let points: Vec<_> = points.step_by(stride).map(|((x, y), bar)| (*x, y - origin, *bar)).collect();
     let upper = points.iter().map(|(x, y, bar)| Spot::data(*x, y + bar));
     let lower = points.iter().rev().map(|(x, y, bar)| Spot::data(*x, y - bar));
-    Item { spots: upper.chain(lower).collect(), tint: Tint::Body(color, 0.0), form: Form::Area(0.25) }
+    Item { spots: upper.chain(lower).collect(), tint: Tint::Body(color, 0.0), form: ItemForm::Area(0.25) }
 }
 
 /// Returns the value that a curve begins with, in words.

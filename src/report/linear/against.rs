@@ -3,7 +3,7 @@
 use crate::error::{percent, significant};
 use crate::linearize::{Against, Branch, Complex, Fate, Kind, Loci, both, branch_places, damping, frequency};
 use crate::plot::{Figure, Series, Style};
-use crate::report::{Answer, Table};
+use crate::report::{Answer, TextTable};
 use serde::Serialize;
 use serde_json::{Value, json};
 
@@ -47,7 +47,7 @@ impl Answer for AgainstAnswer<'_> {
 
     fn text(&self) -> String {
         let mut table =
-            Table::new(&["frequency (Hz)", "damping ratio", "there (Hz)", "damping ratio", "shift", "MAC", "seen"]);
+            TextTable::new(&["frequency (Hz)", "damping ratio", "there (Hz)", "damping ratio", "shift", "MAC", "seen"]);
         let dash = || "-".to_string();
         for mode in self.found.modes.iter().take(MOST_LINES) {
             let [own, there] = [Some(mode.value), mode.there].map(|value| match value {
@@ -123,7 +123,7 @@ impl LociAgainst {
     }
 
     pub fn text(&self, along: &str) -> String {
-        let mut table = Table::new(&["mode", "there", "largest shift", &format!("at {along}")]).words(1);
+        let mut table = TextTable::new(&["mode", "there", "largest shift", &format!("at {along}")]).words(1);
         let dash = || "-".to_string();
         for mode in self.modes.iter().take(MOST_LINES) {
             table.row([

@@ -8,7 +8,7 @@ use crate::files::{Array, mat};
 use crate::linearize::{Along, Deviation, LinearModel, MeasuredA};
 use crate::prepared::Model;
 use crate::report::table::count;
-use crate::report::{Answer, Folder, Table};
+use crate::report::{Answer, Folder, TextTable};
 use crate::system::Names;
 use serde::Serialize;
 use serde_json::{Map, Value, json};
@@ -133,7 +133,7 @@ impl Answer for AlongAnswer<'_> {
                 significant(*t, 6)
             );
         }
-        let mut table = Table::new(&["matrix", "largest entry", "linear interpolation off by (%)", "at t (s)"]);
+        let mut table = TextTable::new(&["matrix", "largest entry", "linear interpolation off by (%)", "at t (s)"]);
         for Deviation { of, largest, error, t } in self.along.deviations.iter().filter(|found| found.largest > 0.0) {
             let percent = significant(100.0 * error, 3);
             table.row([of.to_string(), significant(*largest, 6), percent, significant(*t, 6)]);

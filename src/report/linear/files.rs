@@ -4,7 +4,7 @@ use super::NamedModel;
 use crate::error::Result;
 use crate::files::{Array, mat};
 use crate::linearize::{
-    Complex, Coordinates, Frame, Kind, LinearModel, LinearizationPoint, Matrix, Mode, Units, damping, frequency,
+    Complex, Coordinates, Kind, LinearModel, LinearizationPoint, Matrix, Mode, ModelFrame, Units, damping, frequency,
 };
 use crate::math::largest;
 use crate::prepared::Model;
@@ -134,7 +134,7 @@ impl Serialize for NamedModel<'_> {
 }
 
 /// Units of x, u and y.
-pub(super) fn units(Frame { units: Units { states, inputs, outputs }, .. }: &Frame) -> Value {
+pub(super) fn units(ModelFrame { units: Units { states, inputs, outputs }, .. }: &ModelFrame) -> Value {
     json!({ "states": states, "inputs": inputs, "outputs": outputs })
 }
 
@@ -220,7 +220,7 @@ impl NamedModel<'_> {
 
     /// Returns the basis, and what the outputs and rates are at the state: nothing without minimal coordinates.
     fn frame_arrays(&self) -> Arrays {
-        let Some(Frame { coordinates, qdot, outputs, .. }) = &self.model.frame else { return Vec::new() };
+        let Some(ModelFrame { coordinates, qdot, outputs, .. }) = &self.model.frame else { return Vec::new() };
         let Coordinates { r, tilt, b, lift, .. } = coordinates;
         let point = &self.model.point;
         let mut arrays = vec![
@@ -255,7 +255,7 @@ impl NamedModel<'_> {
     }
 }
 
-pub(super) fn unit_arrays(frame: &Frame) -> [(&'static str, Array); 3] {
+pub(super) fn unit_arrays(frame: &ModelFrame) -> [(&'static str, Array); 3] {
     let Units { states, inputs, outputs } = &frame.units;
     [("state_units", states), ("input_units", inputs), ("output_units", outputs)]
         .map(|(name, units)| (name, Array::Texts(units.clone())))

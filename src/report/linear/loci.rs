@@ -10,7 +10,7 @@ use crate::linearize::{Branch, Complex, Gap, Kind, Loci, LociVariable, Reached, 
 use crate::math::bounds;
 use crate::plot::AxisSpec;
 use crate::report::figures::label;
-use crate::report::{Answer, Folder, Table, cell, table};
+use crate::report::{Answer, Folder, TextTable, cell, table};
 use crate::tolerances;
 use crate::tolerances::SAME;
 use serde::Serialize;
@@ -311,7 +311,8 @@ impl LociAnswer<'_> {
 
     fn table(&self) -> String {
         let growing = label(&format!("growing at {}", self.name_along()), self.unit);
-        let mut table = Table::new(&["mode", "frequency (Hz)", "damping ratio", &growing]).words(1).words(2).words(3);
+        let mut table =
+            TextTable::new(&["mode", "frequency (Hz)", "damping ratio", &growing]).words(1).words(2).words(3);
         let of = |kind: Kind| self.modes.iter().filter(move |mode| mode.kind == kind);
         of(Kind::Physical).take(MOST_LINES).for_each(|mode| table.row(mode_cells(mode)));
         let physical = of(Kind::Physical).count();

@@ -1,15 +1,15 @@
 //! Remarks on the eigenvalues of a table: zero to rounding, with few right digits, without vectors of their own.
 
 use crate::error::two_digits;
-use crate::linearize::{LinearModel, Mode, Pair};
+use crate::linearize::{LinearModel, Mode, ModePair};
 use crate::tolerances::{DEFECTIVE_MODE, EIGENVALUES_AGREE};
 use std::fmt::Write;
 
 /// Returns a line for each remark on the listed eigenvalues, by their numbers in the table; `names` are those of the
 /// velocities.
-pub fn notes(model: &LinearModel, listed: &[(usize, Pair)], names: &[String]) -> String {
+pub fn notes(model: &LinearModel, listed: &[(usize, ModePair)], names: &[String]) -> String {
     let mut text = String::new();
-    let zeros: Vec<&(usize, Pair)> = listed.iter().filter(|(_, pair)| pair.mode.is_zero()).collect();
+    let zeros: Vec<&(usize, ModePair)> = listed.iter().filter(|(_, pair)| pair.mode.is_zero()).collect();
     for motion in ["x", "y", "z", "angle", ""] {
         let same = zeros.iter().filter(|(_, pair)| rigid_motion(pair.mode, names) == motion);
         let (numbers, bounds): (Vec<usize>, Vec<f64>) =
@@ -24,7 +24,7 @@ pub fn notes(model: &LinearModel, listed: &[(usize, Pair)], names: &[String]) ->
             let _ = writeln!(text, "  {} to rounding, below {bound} 1/s{what}", subject(&numbers, "zero"));
         }
     }
-    let others: Vec<&(usize, Pair)> = listed.iter().filter(|(_, pair)| !pair.mode.is_zero()).collect();
+    let others: Vec<&(usize, ModePair)> = listed.iter().filter(|(_, pair)| !pair.mode.is_zero()).collect();
     // Another eigenvalue is the same to rounding, and their vectors are dependent.
     let is_defective = |mode: &Mode| {
         let is_same = |other: &&Mode| (other.value - mode.value).norm() <= mode.error + other.error;
@@ -41,7 +41,7 @@ pub fn notes(model: &LinearModel, listed: &[(usize, Pair)], names: &[String]) ->
             subject(&defective, "defective")
         );
     }
-    for (number, Pair { mode, .. }) in others {
+    for (number, ModePair { mode, .. }) in others {
         // Four of the six digits that are printed hold.
         if mode.error > 1e-4 * mode.value.norm() && !defective.contains(number) {
             let error = two_digits(mode.error);

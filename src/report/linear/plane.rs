@@ -5,7 +5,7 @@ use super::ranges::{VERMILION, fitted, notes, robust, shaded};
 use super::rays::{Ray, rays};
 use crate::error::{short, significant};
 use crate::linearize::{Branch, Complex, Kind, are_conjugate};
-use crate::plot::{AxisSpec, Figure, Form, Item, Panel, Series, Spot, Style, Tint};
+use crate::plot::{AxisSpec, Figure, Item, ItemForm, Panel, Series, Spot, Style, Tint};
 use std::collections::BTreeMap;
 
 /// Colour of the axes, as an index in the palette.
@@ -70,7 +70,7 @@ fn dots(points: impl Iterator<Item = (f64, Complex<f64>)>, Window { re, im }: &W
     let dot = |(at, value): (f64, Complex<f64>)| Item {
         spots: vec![Spot::data(value.re, value.im)],
         tint: Tint::Value(at),
-        form: Form::Disc(2.7),
+        form: ItemForm::Disc(2.7),
     };
     let step = shown.len().div_ceil(4000).max(1);
     shown.into_iter().step_by(step).map(dot).collect()

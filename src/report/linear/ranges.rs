@@ -1,7 +1,7 @@
 //! Ranges of axes: of most values where few are far off, and long enough that round-off does not fill them.
 
 use crate::math::bounds;
-use crate::plot::{Form, Item, Panel, Spot, Tint};
+use crate::plot::{Item, ItemForm, Panel, Spot, Tint};
 use crate::tolerances;
 
 /// Colour of growth, as an index in the palette.
@@ -73,7 +73,7 @@ pub(super) fn shaded(panel: Panel, x: (f64, f64), y: (f64, f64)) -> Panel {
     }
     let corners = [(x.0, y.0), (x.1, y.0), (x.1, y.1), (x.0, y.1)];
     let spots = corners.map(|(x, y)| Spot::data(x, y)).to_vec();
-    panel.items([Item { spots, tint: Tint::Body(VERMILION, 0.0), form: Form::Area(PALE) }])
+    panel.items([Item { spots, tint: Tint::Body(VERMILION, 0.0), form: ItemForm::Area(PALE) }])
 }
 
 /// Returns both notes on a panel as one.

@@ -5,7 +5,7 @@ use super::pair::{Response, is_finite};
 use crate::error::{Result, short, significant};
 use crate::linearize::LinearModel;
 use crate::report::tables::optional;
-use crate::report::{Answer, Folder, Table, cell, table};
+use crate::report::{Answer, Folder, TextTable, cell, table};
 use serde::Serialize;
 use serde_json::{Value, json};
 
@@ -107,7 +107,7 @@ impl Answer for FrequencyResponse<'_> {
             text += &format!("  NO RESPONSE at {} Hz: the model has a pole there\n", significant(pole, 6));
         }
         let at = format!("at {from} Hz");
-        let mut lines = Table::new(&["output / input", "unit", &at, "largest", "at (Hz)"]).words(1);
+        let mut lines = TextTable::new(&["output / input", "unit", &at, "largest", "at (Hz)"]).words(1);
         self.responses.iter().filter(|x| !x.is_zero()).for_each(|response| lines.row(self.cells(response)));
         format!("{text}\n{lines}{}", self.left_out())
     }

@@ -2,7 +2,7 @@
 
 use crate::error::{short_list, significant};
 use crate::linearize::Along;
-use crate::report::{Answer, Table};
+use crate::report::{Answer, TextTable};
 use crate::validate::SpanCheck;
 use serde::Serialize;
 use serde_json::json;
@@ -48,7 +48,7 @@ impl Answer for SpanAnswer<'_> {
     fn text(&self) -> String {
         let models = &self.along.models;
         let end = models.last().map_or(0.0, |last| last.point.t);
-        let mut table = Table::new(&["perturbation", "least order in eps", "at t (s)", "decades"]);
+        let mut table = TextTable::new(&["perturbation", "least order in eps", "at t (s)", "decades"]);
         for check in self.checks {
             let cells = match check.lowest() {
                 Some((t, decay)) => {

@@ -3,10 +3,10 @@
 use super::NamedModel;
 use super::notes::notes;
 use crate::error::{short, significant};
-use crate::linearize::{Comparison, Kind, LinearModel, LinearizationPoint, Pair, pairs};
+use crate::linearize::{Comparison, Kind, LinearModel, LinearizationPoint, ModePair, pairs};
 use crate::report::table::count;
 use crate::report::tables::TableColumn;
-use crate::report::{Answer, Table};
+use crate::report::{Answer, TextTable};
 use serde::Serialize;
 use serde_json::json;
 
@@ -117,7 +117,7 @@ fn chart(name: &str, point: &LinearizationPoint) -> String {
 fn modes_text(model: &LinearModel, bodies: &[&str], names: &[String]) -> String {
     let headings =
         ["mode", "re (1/s)", "im (1/s)", "frequency (Hz)", "damping ratio", "kind", "moves (% of kinetic energy)"];
-    let mut table = Table::new(&headings).words(5).words(6);
+    let mut table = TextTable::new(&headings).words(5).words(6);
     let mut number = 0;
     let mut left_out = Vec::new();
     let mut listed = Vec::new();
@@ -143,7 +143,7 @@ fn modes_text(model: &LinearModel, bodies: &[&str], names: &[String]) -> String 
     }
 }
 
-fn cells(model: &LinearModel, bodies: &[&str], number: usize, pair: &Pair) -> [String; 7] {
+fn cells(model: &LinearModel, bodies: &[&str], number: usize, pair: &ModePair) -> [String; 7] {
     let mode = pair.mode;
     let value = pair.mode.value;
     let imaginary =
@@ -211,7 +211,7 @@ pub fn comparison_text(rows: &[Comparison], is_equilibrium: bool) -> String {
         ("matrices (us)", |row| significant(row.assembly_microseconds, 3)),
         ("eigenvalues (us)", |row| significant(row.eigen_microseconds, 3)),
     ];
-    let table = Table::of(&columns, rows).words(1);
+    let table = TextTable::of(&columns, rows).words(1);
     let note = if is_equilibrium {
         ""
     } else {

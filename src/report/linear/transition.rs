@@ -4,7 +4,7 @@ use super::files::matrix;
 use crate::error::{Result, significant, two_digits};
 use crate::linearize::{Complex, Defect, Floquet, Lyapunov};
 use crate::plot::{Figure, Panel, Series};
-use crate::report::{Answer, Folder, Table, table};
+use crate::report::{Answer, Folder, TextTable, table};
 use crate::tolerances;
 use serde::Serialize;
 use serde_json::{Value, json};
@@ -60,7 +60,7 @@ fn floquet_json(found: &Floquet, defects: &[Defect]) -> Value {
 }
 
 fn floquet_text(scene: &str, t: f64, found: &Floquet, defects: &[Defect]) -> String {
-    let mut table = Table::new(&["multiplier re", "im", "size", "error", "condition", "grows by (1/s)"]);
+    let mut table = TextTable::new(&["multiplier re", "im", "size", "error", "condition", "grows by (1/s)"]);
     let sure = found.errors.iter().zip(&found.conditions);
     for ((value, exponent), (error, condition)) in found.multipliers.iter().zip(found.exponents()).zip(sure) {
         let [re, im, size, growth] = [value.re, value.im, value.norm(), exponent.re].map(|x| significant(x, 7));

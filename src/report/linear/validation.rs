@@ -4,10 +4,10 @@ use crate::error::{Result, significant};
 use crate::math::largest;
 use crate::plot::{AxisSpec, Figure, Panel, Series, Style};
 use crate::report::figures::{Floor, grouped, label, quantity};
-use crate::report::{Answer, Folder, Table};
+use crate::report::{Answer, Folder, TextTable};
 use crate::system::Names;
 use crate::tolerances;
-use crate::validate::{Curve, Decay, Passage, PerturbationSequence, Reason, Validation};
+use crate::validate::{ChangeCurve, Decay, EventPassage, PerturbationSequence, Reason, Validation};
 use serde::Serialize;
 use serde_json::{Value, json};
 
@@ -69,14 +69,14 @@ impl Answer for ValidationAnswer<'_> {
 
     fn text(&self) -> String {
         let found = &self.found;
-        let mut table = Table::new(&["perturbation", "order in eps", "decades", "1 % after (s)", "10 % after (s)"]);
+        let mut table = TextTable::new(&["perturbation", "order in eps", "decades", "1 % after (s)", "10 % after (s)"]);
         for sequence in &found.sequences {
             let end = sequence.times.last().map_or(found.followed, |t| t.min(found.followed));
             let [one, ten] = sequence
                 .horizons
                 .map(|time| time.map_or(format!("> {}", significant(end, 3)), |time| significant(time, 4)));
             table.row([sequence.direction.clone(), order(&sequence.order_ltv), decades(&sequence.order_ltv), one, ten]);
-            if let Some(Passage { t, order: decay, .. }) = &sequence.passage {
+            if let Some(EventPassage { t, order: decay, .. }) = &sequence.passage {
                 let name = format!("{} up to t = {} s", sequence.direction, significant(*t, 6));
                 table.row([name, order(decay), decades(decay), String::new(), String::new()]);
             }
@@ -168,7 +168,7 @@ fn direction(names: &Names, sequence: &PerturbationSequence) -> Value {
 /// Draws the errors over epsilon with a line of slope 2; then, for each unit, the curves that move most over time with
 /// both predictions, and how far these are off. `None` where there is neither.
 pub fn validation_figure(title: &str, names: &Names, sequence: &PerturbationSequence) -> Option<Figure> {
-    let name = |curve: &Curve| names.v[curve.direction].trim_end_matches('\'');
+    let name = |curve: &ChangeCurve| names.v[curve.direction].trim_end_matches('\'');
     let curves = sequence
         .curves
         .iter()
@@ -212,7 +212,7 @@ fn order_panel(sequence: &PerturbationSequence) -> Option<Panel> {
 }
 
 /// The change along one direction: its name, its unit and its curves.
-type Member<'a> = (&'a str, &'static str, &'a Curve);
+type Member<'a> = (&'a str, &'static str, &'a ChangeCurve);
 
 /// Draws the changes of one unit over time, and below how far the predictions are off.
 fn deviation_panels(members: &[Member], times: &[f64]) -> [Panel; 2] {
@@ -275,12 +275,12 @@ fn difference(a: &[f64], b: &[f64]) -> Vec<f64> {
 }
 
 /// True if all lines of two directions differ by this part of their size at most.
-fn are_within(part: f64, a: &Curve, b: &Curve) -> bool {
+fn are_within(part: f64, a: &ChangeCurve, b: &ChangeCurve) -> bool {
     let most = part * largest(&a.simulated);
     let pairs = [(&a.simulated, &b.simulated), (&a.ltv, &b.ltv), (&a.lti, &b.lti)];
     pairs.into_iter().all(|(a, b)| largest(&difference(a, b)) <= most)
 }
 
-fn are_equal(a: &Curve, b: &Curve) -> bool {
+fn are_equal(a: &ChangeCurve, b: &ChangeCurve) -> bool {
     are_within(tolerances::SAME, a, b)
 }

@@ -1,7 +1,7 @@
 //! A canvas in space, seen from a view: collects items with their depths.
 
 use super::view::{View, along, square_to};
-use crate::plot::{Align, Form, Item, Spot, Tint};
+use crate::plot::{Align, Item, ItemForm, Spot, Tint};
 
 /// Order of items of equal depth.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -61,29 +61,29 @@ impl<'a> Canvas<'a> {
         self.spot(r).moved(right, up)
     }
 
-    fn push(&mut self, spots: Vec<Spot>, tint: Tint, form: Form) {
+    fn push(&mut self, spots: Vec<Spot>, tint: Tint, form: ItemForm) {
         self.items.push((self.depth, self.layer, Item { spots, tint, form }));
     }
 
     pub fn line(&mut self, spots: Vec<Spot>, tint: Tint, width: f64) {
-        self.push(spots, tint, Form::Line(width, false));
+        self.push(spots, tint, ItemForm::Line(width, false));
     }
 
     pub fn dashes(&mut self, spots: Vec<Spot>, tint: Tint, width: f64) {
-        self.push(spots, tint, Form::Line(width, true));
+        self.push(spots, tint, ItemForm::Line(width, true));
     }
 
     pub fn area(&mut self, spots: Vec<Spot>, tint: Tint, opacity: f64) {
-        self.push(spots, tint, Form::Area(opacity));
+        self.push(spots, tint, ItemForm::Area(opacity));
     }
 
     pub fn disc(&mut self, spot: Spot, radius: f64, tint: Tint) {
-        self.push(vec![spot], tint, Form::Disc(radius));
+        self.push(vec![spot], tint, ItemForm::Disc(radius));
     }
 
     /// Draws a small text centred at a point.
     pub fn text(&mut self, spot: Spot, text: &str) {
-        self.push(vec![spot], Tint::Ink(0.0), Form::Text(text.to_string(), Align::Middle));
+        self.push(vec![spot], Tint::Ink(0.0), ItemForm::Text(text.to_string(), Align::Middle));
     }
 
     pub fn ring(&mut self, spot: Spot, radius: f64, tint: Tint) {

@@ -1,8 +1,8 @@
 //! Figures of the mechanism, from snapshots.
 
 use super::canvas::Canvas;
-use super::glyphs::Course;
-use super::motion::Motion;
+use super::glyphs::ElementTravel;
+use super::motion::DrawnMotion;
 use super::snapshot::{Link, Snapshot, snapshot, up};
 use super::traces::{Trace, curves};
 use super::view::{View, direction};
@@ -12,7 +12,7 @@ use crate::error::significant;
 use crate::joint::Axis;
 use crate::linearize::State;
 use crate::math::bounds;
-use crate::plot::{Align, Animation, AxisSpec, Figure, Form, Item, Panel, Series, Spot, Tint};
+use crate::plot::{Align, Animation, AxisSpec, Figure, Item, ItemForm, Panel, Series, Spot, Tint};
 use crate::prepared::{AnyMechanism, Model};
 
 #[derive(Clone, Debug)]
@@ -39,7 +39,7 @@ impl Look {
 pub fn mechanism_figure(prepared: &Model, look: &Look, state: &State) -> Figure {
     let scene = snapshot(&prepared.mechanism, state);
     let mut items = supports(look, std::slice::from_ref(&scene));
-    items.extend(picture(look, &scene, &Course { travels: Vec::new(), lengths: lengths(&scene) }, 0.0));
+    items.extend(picture(look, &scene, &ElementTravel { travels: Vec::new(), lengths: lengths(&scene) }, 0.0));
     let panel = panel(look, &scene, [items.as_slice()].into_iter(), &[]).items(items);
     let title = format!("{}, t = {} s", prepared.name, significant(state.t, 4));
     Figure::new().title(title).panel(labelled(look, &scene, panel))
@@ -49,7 +49,7 @@ pub fn mechanism_figure(prepared: &Model, look: &Look, state: &State) -> Figure 
 const PALE: (f64, f64) = (0.8, 0.45);
 
 /// Draws the mechanism at several times in one figure, earlier ones paler.
-pub fn stroboscope_figure(motion: &Motion, look: &Look, times: &[f64]) -> Figure {
+pub fn stroboscope_figure(motion: &DrawnMotion, look: &Look, times: &[f64]) -> Figure {
     let prepared = motion.prepared;
     let scenes: Vec<Snapshot> = times.iter().map(|t| snapshot(&prepared.mechanism, &motion.state(*t))).collect();
     let course = course(motion);
@@ -82,12 +82,12 @@ fn keys(times: &[f64], paleness: impl Fn(usize) -> f64) -> Vec<(String, Tint)> {
 fn dot_on_path(look: &Look, scene: &Snapshot, trace: &Trace, paleness: f64) -> Item {
     let (x, y) = look.view.flat(scene.markers[trace.marker].r);
     let tint = trace.body.map_or(Tint::Ink(paleness), |body| Tint::Body(body, 0.6 * paleness));
-    Item { spots: vec![Spot::data(x, y)], tint, form: Form::Disc(3.4) }
+    Item { spots: vec![Spot::data(x, y)], tint, form: ItemForm::Disc(3.4) }
 }
 
 /// Draws the mechanism in motion at `times`, `per_second` of them in a second.
 pub fn animation(
-    motion: &Motion,
+    motion: &DrawnMotion,
     look: &Look,
     times: Vec<f64>,
     per_second: f64,
@@ -135,7 +135,7 @@ pub fn animation(
 }
 
 fn text(spot: Spot, text: String, align: Align) -> Item {
-    Item { spots: vec![spot], tint: Tint::Ink(0.0), form: Form::Text(text, align) }
+    Item { spots: vec![spot], tint: Tint::Ink(0.0), form: ItemForm::Text(text, align) }
 }
 
 /// Returns about `most` of the times, evenly chosen.
@@ -152,7 +152,7 @@ pub(super) fn supports(look: &Look, scenes: &[Snapshot]) -> Vec<Item> {
 pub(super) fn picture(
     look: &Look,
     scene: &Snapshot,
-    course: &Course,
+    course: &ElementTravel,
     paleness: f64,
 ) -> impl Iterator<Item = Item> + use<> {
     let mut pen = Canvas::new(&look.view, paleness);
@@ -229,7 +229,7 @@ pub(super) fn labelled(look: &Look, scene: &Snapshot, mut panel: Panel) -> Panel
     panel
 }
 
-fn course(motion: &Motion) -> Course {
+fn course(motion: &DrawnMotion) -> ElementTravel {
     let mechanism = &motion.prepared.mechanism;
     let slides = |link: &Link| ["prismatic", "cylindrical", "point_on_line"].contains(&link.kind);
     let place = |link: &Link| match link.axis {
@@ -237,7 +237,7 @@ fn course(motion: &Motion) -> Course {
         _ => None,
     };
     let first = snapshot(mechanism, &motion.state(motion.reach().0));
-    let mut course = Course { travels: vec![None; first.joints.len()], lengths: lengths(&first) };
+    let mut course = ElementTravel { travels: vec![None; first.joints.len()], lengths: lengths(&first) };
     let times = if first.joints.iter().any(slides) { motion.times(300) } else { Vec::new() };
     for t in times {
         let scene = snapshot(mechanism, &motion.state(t));

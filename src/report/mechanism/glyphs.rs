@@ -6,7 +6,7 @@ use super::{bodies, forces, joints};
 
 /// Properties of the joints and forces over the whole motion, in their order.
 #[derive(Clone, Debug, Default)]
-pub struct Course {
+pub struct ElementTravel {
     /// Range of each joint's position along its axis, m.
     pub travels: Vec<Option<(f64, f64)>>,
     /// Distance of the ends of each force at the start, m.
@@ -39,7 +39,7 @@ fn glyph(kind: &str) -> (fn(&mut Canvas, &Link, &Sight), bool) {
     }
 }
 
-pub fn draw(pen: &mut Canvas, scene: &Snapshot, course: &Course) {
+pub fn draw(pen: &mut Canvas, scene: &Snapshot, course: &ElementTravel) {
     let depths: Vec<f64> = scene.limbs.iter().map(|limb| bodies::depth(pen, limb)).collect();
     let sight = |travel, length| Sight { is_planar: scene.is_planar, travel, length };
     let travel = |i: usize| course.travels.get(i).copied().flatten();

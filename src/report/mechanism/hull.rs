@@ -1,11 +1,11 @@
 //! Convex outlines.
 
-type Point = (f64, f64);
+type PlanePoint = (f64, f64);
 
 /// Returns the corners of the convex hull, counter-clockwise; two where all points lie on a line, one where they
 /// coincide.
-pub fn hull(points: &[Point]) -> Vec<Point> {
-    let mut sorted: Vec<Point> = points.to_vec();
+pub fn hull(points: &[PlanePoint]) -> Vec<PlanePoint> {
+    let mut sorted: Vec<PlanePoint> = points.to_vec();
     sorted.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.total_cmp(&b.1)));
     let size = sorted.iter().flat_map(|p| [p.0.abs(), p.1.abs()]).fold(0.0, f64::max);
     let tiny = 1e-9 * size;
@@ -15,13 +15,13 @@ pub fn hull(points: &[Point]) -> Vec<Point> {
     }
     let lower = chain(sorted.iter().copied(), tiny * size);
     let upper = chain(sorted.iter().rev().copied(), tiny * size);
-    let ends = |half: &[Point]| half[..half.len() - 1].to_vec();
+    let ends = |half: &[PlanePoint]| half[..half.len() - 1].to_vec();
     [ends(&lower), ends(&upper)].concat()
 }
 
 /// Returns the points at which a line around the others turns left.
-fn chain(points: impl Iterator<Item = Point>, tiny: f64) -> Vec<Point> {
-    let mut kept: Vec<Point> = Vec::new();
+fn chain(points: impl Iterator<Item = PlanePoint>, tiny: f64) -> Vec<PlanePoint> {
+    let mut kept: Vec<PlanePoint> = Vec::new();
     for point in points {
         while kept.len() > 1 && turn(kept[kept.len() - 2], kept[kept.len() - 1], point) <= tiny {
             kept.pop();
@@ -32,12 +32,12 @@ fn chain(points: impl Iterator<Item = Point>, tiny: f64) -> Vec<Point> {
 }
 
 /// Returns twice the area of a triangle, positive where it turns left.
-fn turn(a: Point, b: Point, c: Point) -> f64 {
+fn turn(a: PlanePoint, b: PlanePoint, c: PlanePoint) -> f64 {
     (b.0 - a.0) * (c.1 - a.1) - (b.1 - a.1) * (c.0 - a.0)
 }
 
 /// Returns an outline around the corners of a hull at distance one: each corner with directions to step from it.
-pub fn rounded(corners: &[Point]) -> Vec<(Point, Point)> {
+pub fn rounded(corners: &[PlanePoint]) -> Vec<(PlanePoint, PlanePoint)> {
     let count = corners.len();
     let heading = |k: usize| {
         let a = corners[k % count];
@@ -74,7 +74,7 @@ mod tests {
 
     #[test]
     fn points_on_a_line_have_two_ends() {
-        let line: Vec<Point> = (0..7).map(|k| (0.1 * f64::from(k), 0.3 - 0.2 * f64::from(k))).collect();
+        let line: Vec<PlanePoint> = (0..7).map(|k| (0.1 * f64::from(k), 0.3 - 0.2 * f64::from(k))).collect();
         assert_eq!(hull(&line), [line[0], line[6]]);
         assert_eq!(hull(&[(1.0, 1.0); 4]), [(1.0, 1.0)]);
         assert!(hull(&[]).is_empty());
@@ -83,7 +83,7 @@ mod tests {
     #[test]
     fn outlines_turn_once_around_all_corners() {
         for corners in [vec![(0.0, 0.0)], vec![(0.0, 0.0), (3.0, 0.0)], vec![(0.0, 0.0), (3.0, 0.0), (0.0, 4.0)]] {
-            let outline: Vec<Point> =
+            let outline: Vec<PlanePoint> =
                 rounded(&corners).iter().map(|(at, step)| (at.0 + step.0, at.1 + step.1)).collect();
             let pairs = outline.iter().zip(outline.iter().skip(1).chain(&outline[..1]));
             let area: f64 = pairs.map(|(a, b)| 0.5 * (a.0 * b.1 - a.1 * b.0)).sum();

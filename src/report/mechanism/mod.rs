@@ -23,7 +23,7 @@ mod view;
 pub use figures::{Look, animation, mechanism_figure, stroboscope_figure};
 pub use joints::pitch_radii;
 pub use modes::{Swing, at_rest, mode_figure, mode_title, shaped};
-pub use motion::Motion;
+pub use motion::DrawnMotion;
 pub use snapshot::{Limb, Link, Pose, Snapshot, reactions, snapshot, solids, up};
 pub use traces::{Trace, find_trace, output_traces};
 pub use view::View;

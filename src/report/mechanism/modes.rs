@@ -1,13 +1,13 @@
 //! Figures of the mode shapes.
 
 use super::figures::{Look, labelled, lengths, panel, picture, supports};
-use super::glyphs::Course;
+use super::glyphs::ElementTravel;
 use super::snapshot::{Snapshot, snapshot};
 use super::view::along;
 use crate::body::{norm, sub};
 use crate::error::{short, significant};
 use crate::formulation::ExponentialMap;
-use crate::linearize::{Complex, Kind, LinearModel, Mode, Pair, State, pairs};
+use crate::linearize::{Complex, Kind, LinearModel, Mode, ModePair, State, pairs};
 use crate::math::bounds;
 use crate::plot::{Figure, Item, Tint};
 use crate::prepared::Model;
@@ -59,13 +59,13 @@ pub fn mode_figure(prepared: &Model, look: &Look, model: &LinearModel) -> Option
 }
 
 /// Returns the physical modes with a shape, with their numbers.
-pub fn shaped(model: &LinearModel) -> Vec<(usize, Pair<'_>)> {
+pub fn shaped(model: &LinearModel) -> Vec<(usize, ModePair<'_>)> {
     let numbered = pairs(model, Kind::Physical).into_iter().enumerate().map(|(i, pair)| (i + 1, pair));
     numbered.filter(|(_, pair)| pair.mode.shape.iter().any(|part| part.norm() > 0.0)).collect()
 }
 
 /// Returns frequency and damping ratio of an oscillating mode, the rate of another.
-pub fn mode_title(pair: &Pair) -> String {
+pub fn mode_title(pair: &ModePair) -> String {
     let mode = pair.mode;
     let text = if mode.is_zero() {
         "0 Hz".to_string()
@@ -84,7 +84,7 @@ pub fn at_rest(prepared: &Model, model: &LinearModel) -> Snapshot {
 
 fn picture_of(prepared: &Model, look: &Look, model: &LinearModel, mode: &Mode, rest: &Snapshot) -> Vec<Item> {
     let swing = Swing::new(prepared, model, mode, rest);
-    let course = Course { travels: Vec::new(), lengths: lengths(rest) };
+    let course = ElementTravel { travels: Vec::new(), lengths: lengths(rest) };
     let grey = |item: Item| match item.tint {
         Tint::Body(_, paleness) => Item { tint: Tint::Ink(paleness), ..item },
         _ => item,

@@ -7,20 +7,20 @@ use crate::system::MechanicalSystem;
 use crate::tolerances;
 use crate::trajectory::Trajectory;
 
-pub struct Motion<'a> {
+pub struct DrawnMotion<'a> {
     pub prepared: &'a Model,
     pub title: String,
     trajectory: &'a Trajectory,
 }
 
-impl<'a> Motion<'a> {
+impl<'a> DrawnMotion<'a> {
     /// The motion of a trajectory with at least one row.
     pub fn new(prepared: &'a Model, trajectory: &'a Trajectory) -> Self {
-        Motion { prepared, title: prepared.name.clone(), trajectory }
+        DrawnMotion { prepared, title: prepared.name.clone(), trajectory }
     }
 
     pub fn titled(self, title: String) -> Self {
-        Motion { title, ..self }
+        DrawnMotion { title, ..self }
     }
 
     pub fn trajectory(&self) -> &'a Trajectory {

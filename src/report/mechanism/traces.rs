@@ -1,6 +1,6 @@
 //! Paths of markers.
 
-use super::motion::Motion;
+use super::motion::DrawnMotion;
 use super::snapshot::markers;
 use super::view::View;
 use crate::body::{MarkerId, MarkerTable, Probe, Quantity};
@@ -51,7 +51,7 @@ pub fn output_traces(mechanism: &AnyMechanism) -> Vec<Trace> {
 }
 
 /// Draws the paths in the colours of their bodies.
-pub fn curves(motion: &Motion, view: &View, traces: &[Trace]) -> Vec<Series> {
+pub fn curves(motion: &DrawnMotion, view: &View, traces: &[Trace]) -> Vec<Series> {
     let path = |trace: &Trace| Series {
         color: trace.body,
         ..Series::line(format!("path of {}", trace.name), Vec::new()).style(Style::Thin)

@@ -1,7 +1,7 @@
 //! Figure of a map.
 
-use crate::plot::{Align, AxisSpec, Figure, Form, Item, Panel, Spot, Tint};
-use crate::study::stress::{Axis, Cell, Status, Stressed};
+use crate::plot::{Align, AxisSpec, Figure, Item, ItemForm, Panel, Spot, Tint};
+use crate::study::stress::{Cell, MapAxis, Status, Stressed};
 use crate::tolerances::WRONG_MOTION;
 
 /// Smaller values have the colour of this one: they are round-off.
@@ -29,7 +29,7 @@ pub fn stress_figure(scene: &str, stressed: &Stressed) -> Option<Figure> {
 }
 
 /// Returns a width in nominal pixels at which every column has room for its label, and for a word of four letters.
-fn width(axis: &Axis) -> f64 {
+fn width(axis: &MapAxis) -> f64 {
     let longest = axis.entries.iter().map(|entry| entry.label.chars().count()).max().unwrap_or(0).max(3);
     let columns = axis.entries.len() as f64 * (10.0 * longest as f64 + 16.0);
     (270.0 + columns).max(Figure::default().width)
@@ -49,10 +49,10 @@ fn panel(stressed: &Stressed, method: usize, (low, high): (f64, f64)) -> Panel {
             let at = |right: f64, up: f64| Spot::data(column as f64 + right, row as f64 + up);
             let (word, tint, ink) = shown(stressed, stressed.cell(method, *from_row, *from_column), (low, high));
             let spots = vec![at(-0.5, -0.5), at(0.5, -0.5), at(0.5, 0.5), at(-0.5, 0.5)];
-            panel.items.push(Item { spots, tint, form: Form::Cell });
+            panel.items.push(Item { spots, tint, form: ItemForm::Cell });
             if !word.is_empty() {
                 let spots = vec![at(0.0, 0.0).moved(0.0, -5.3)];
-                words.push(Item { spots, tint: ink, form: Form::Text(word.to_string(), Align::Middle) });
+                words.push(Item { spots, tint: ink, form: ItemForm::Text(word.to_string(), Align::Middle) });
             }
         }
     }
@@ -109,7 +109,7 @@ fn keys(stressed: &Stressed) -> Vec<(String, Tint)> {
 }
 
 /// Returns the indices of the entries of an axis, in ascending order of their values where all have one.
-fn order(axis: &Axis) -> Vec<usize> {
+fn order(axis: &MapAxis) -> Vec<usize> {
     let mut order: Vec<usize> = (0..axis.entries.len()).collect();
     if let Some(values) = axis.values() {
         order.sort_by(|a, b| values[*a].total_cmp(&values[*b]));
@@ -117,7 +117,7 @@ fn order(axis: &Axis) -> Vec<usize> {
     order
 }
 
-fn axis(axis: &Axis, order: &[usize]) -> AxisSpec {
+fn axis(axis: &MapAxis, order: &[usize]) -> AxisSpec {
     let label = axis.label();
     let has_others = !axis.unit.is_empty() && axis.values().is_none();
     let label = if has_others { format!("{label}, or method") } else { label };

@@ -6,7 +6,7 @@ use crate::error::Result;
 use crate::report::tables::{TableColumn, by_columns, optional};
 use crate::report::{Answer, Folder, cell as full};
 use crate::simulate::Method;
-use crate::study::stress::{Axis, AxisPlace, Cell, Map, MethodVerdict, Stressed};
+use crate::study::stress::{AxisPlace, Cell, Map, MapAxis, MethodVerdict, Stressed};
 use serde::Serialize;
 use serde_json::{Value, json};
 
@@ -118,7 +118,7 @@ fn map_json(stressed: &Stressed) -> Value {
 }
 
 /// Returns an axis with null for an entry that is not a number, such as another method.
-fn axis(axis: &Axis) -> Value {
+fn axis(axis: &MapAxis) -> Value {
     json!({
         "name": axis.name,
         "unit": axis.unit,

@@ -2,9 +2,9 @@
 
 use crate::error::{short, two_digits};
 use crate::math::bounds;
-use crate::report::Table;
+use crate::report::TextTable;
 use crate::study::stress::{
-    Axis, AxisSide, Best, Bound, GainVerdict, Level, MethodVerdict, Reason, Status, StepVerdict, Stressed,
+    AxisSide, Best, Bound, GainRun, GainVerdict, MapAxis, MethodVerdict, Reason, Status, StepVerdict, Stressed,
 };
 use crate::tolerances::WRONG_MOTION;
 
@@ -113,7 +113,7 @@ fn even(verdict: &GainVerdict, is_whole: bool) -> String {
     }
 }
 
-type LevelOf = fn(&StepVerdict) -> &Level;
+type LevelOf = fn(&StepVerdict) -> &GainRun;
 
 /// Returns the drift of the methods without gains.
 fn beside(steps: &[StepVerdict]) -> String {
@@ -137,7 +137,7 @@ fn beside(steps: &[StepVerdict]) -> String {
 
 /// Returns the largest step up to which a method is right, its error there, and the reason of the failure beyond.
 fn holds(name: &str, steps: &[StepVerdict], level: LevelOf) -> String {
-    let ended: Vec<(f64, &Level)> =
+    let ended: Vec<(f64, &GainRun)> =
         steps.iter().map(|step| (step.step, level(step))).filter(|(_, level)| level.status.is_ended()).collect();
     let held = ended.iter().take_while(|(_, level)| level.holds == Some(true)).count();
     let until = match ended.get(..held) {
@@ -157,7 +157,7 @@ fn percent(part: f64) -> String {
 }
 
 /// Returns the defect of a simulation outside the tolerance.
-fn what(level: &Level) -> String {
+fn what(level: &GainRun) -> String {
     match (level.status, level.error, level.energy) {
         (Status::Completed, Some(error), _) if error > WRONG_MOTION => {
             format!("it completes with outputs {} off", percent(error))
@@ -225,24 +225,24 @@ fn place(stressed: &Stressed, bound: &Bound) -> String {
     }
 }
 
-fn with_unit(axis: &Axis, value: &str) -> String {
+fn with_unit(axis: &MapAxis, value: &str) -> String {
     if axis.unit.is_empty() { value.to_string() } else { format!("{value} {}", axis.unit) }
 }
 
 fn because(stressed: &Stressed, reason: &Reason) -> String {
     let x = &stressed.map.x;
     let y = &stressed.map.y;
-    let place = |axis: &Axis, label: &str| format!("{} {}", axis.name, with_unit(axis, label));
+    let place = |axis: &MapAxis, label: &str| format!("{} {}", axis.name, with_unit(axis, label));
     let at_x = place(x, &reason.x);
     let at_y = place(y, &reason.y);
     format!(". {} of them say, as at {at_x}, {at_y}: {}.", reason.count, reason.reason)
 }
 
 /// Returns the drift at each step, by gain and by projection.
-pub fn gain_table(verdict: &GainVerdict) -> Table {
+pub fn gain_table(verdict: &GainVerdict) -> TextTable {
     let headings =
         ["h (s)", "none", "best gain (1/s)", "leaves", "error", "(2/h, 1/h²)", "manifold", "error", "manifold × 2"];
-    let mut table = Table::new(&headings);
+    let mut table = TextTable::new(&headings);
     for step in &verdict.steps {
         let (gain, value, error) = match &step.best {
             Some(best) => (short(best.gain), number(best.value), best.error.map_or("-".to_string(), number)),
@@ -263,6 +263,6 @@ fn number(value: f64) -> String {
     format!("{value:.2e}")
 }
 
-fn shown(level: &Level) -> String {
+fn shown(level: &GainRun) -> String {
     level.drift.map_or(level.status.word().to_string(), number)
 }

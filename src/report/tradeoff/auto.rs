@@ -4,7 +4,7 @@ use super::{accuracy, milliseconds};
 use crate::error::{Result, percent};
 use crate::plot::{AxisSpec, Figure, Panel, Series, Style};
 use crate::report::table::count;
-use crate::report::{Answer, Folder, Table, cell as number, table};
+use crate::report::{Answer, Folder, TextTable, cell as number, table};
 use crate::study::work_precision::{Cell, WorkPrecision, front};
 use serde::Serialize;
 
@@ -80,7 +80,7 @@ impl ModelsAndMethods {
     fn models_text(&self) -> String {
         let text = format!("{}: models and methods, errors together\n\n", self.scene);
         let mut models =
-            Table::new(&["model", "velocities", "constraints", "its error", "in", "left out"]).words(4).words(5);
+            TextTable::new(&["model", "velocities", "constraints", "its error", "in", "left out"]).words(4).words(5);
         for model in &self.models {
             let error = model.error.map_or("not known".to_string(), percent);
             let v = model.velocities.to_string();
@@ -97,7 +97,7 @@ impl ModelsAndMethods {
 
     fn runs_text(&self) -> String {
         let headings = ["error below", "model", "method", "accuracy", "CPU", "of the model", "of the method"];
-        let mut best = Table::new(&headings).words(1).words(2);
+        let mut best = TextTable::new(&headings).words(1).words(2);
         for within in [0.1, 0.01, 1e-3, 1e-4, 1e-6] {
             if let Some((model, cell, cost)) = self.cheapest(within) {
                 best.row([

@@ -15,23 +15,23 @@ pub fn tradeoff_figure(measured: &WorkPrecision, digits: u32) -> Option<Figure> 
     let factorizations = |cell: &Cell| cell.statistics().map(|work| work.whole().factorizations as f64);
     let cost = |cell: &Cell| cell.cost;
     let drift = |cell: &Cell| cell.drift().map(Held::largest);
-    let panel = |x: Quantity, y: Quantity| panel(measured, &named, x, y);
-    let error = || Quantity("error (relative)", &Cell::error);
-    let drifts = panel(Quantity("CPU time (s)", &cost), Quantity("drift of φ, φ′ (relative)", &drift));
+    let panel = |x: PlottedQuantity, y: PlottedQuantity| panel(measured, &named, x, y);
+    let error = || PlottedQuantity("error (relative)", &Cell::error);
+    let drifts = panel(PlottedQuantity("CPU time (s)", &cost), PlottedQuantity("drift of φ, φ′ (relative)", &drift));
     let figure =
         Figure { columns: 2, width: 1280.0, ..Figure::new().title(format!("{}: speed for accuracy", measured.scene)) };
     Some(
         figure
-            .panel(panel(Quantity("CPU time (s)", &cost), error()))
+            .panel(panel(PlottedQuantity("CPU time (s)", &cost), error()))
             .panel(Floor::of(1.0).cut(drifts))
-            .panel(panel(Quantity("evaluations of the equations of motion", &evaluations), error()))
-            .panel(panel(Quantity("factorizations", &factorizations), error())),
+            .panel(panel(PlottedQuantity("evaluations of the equations of motion", &evaluations), error()))
+            .panel(panel(PlottedQuantity("factorizations", &factorizations), error())),
     )
 }
 
 /// The label of an axis, and its value for a run.
 #[derive(Clone, Copy)]
-struct Quantity<'q>(&'q str, &'q dyn Fn(&Cell) -> Option<f64>);
+struct PlottedQuantity<'q>(&'q str, &'q dyn Fn(&Cell) -> Option<f64>);
 
 /// Returns the best method of each integrator for this many digits, the quickest first.
 fn named(measured: &WorkPrecision, digits: u32) -> Vec<usize> {
@@ -47,8 +47,8 @@ fn named(measured: &WorkPrecision, digits: u32) -> Vec<usize> {
     named
 }
 
-fn panel(measured: &WorkPrecision, named: &[usize], x: Quantity, y: Quantity) -> Panel {
-    let axis = |quantity: Quantity| AxisSpec::from(quantity.0).log();
+fn panel(measured: &WorkPrecision, named: &[usize], x: PlottedQuantity, y: PlottedQuantity) -> Panel {
+    let axis = |quantity: PlottedQuantity| AxisSpec::from(quantity.0).log();
     let point = |cell: &Cell| Some((x.1(cell)?, y.1(cell)?));
     let is_named = |cell: &Cell| named.iter().any(|place| cell.is_of(&measured.cells[*place].method));
     let others = measured.cells.iter().filter(|cell| !is_named(cell)).filter_map(point).collect();

@@ -4,7 +4,7 @@ use super::milliseconds;
 use crate::error::{Result, percent};
 use crate::plot::{AxisSpec, Figure, Panel, Series, Tint};
 use crate::report::tables::optional;
-use crate::report::{Answer, Folder, Table, table};
+use crate::report::{Answer, Folder, TextTable, table};
 use crate::study::work_precision::models::{Finer, ModelCost, ModelCosts};
 use serde::Serialize;
 
@@ -63,10 +63,10 @@ impl Answer for ModelsAnswer<'_> {
         for advice in &self.recommendations {
             text += &format!("  {}\n", advice.sentence);
         }
-        let mut costs = Table::new(&["model", "q", "v", "constraints", "CPU", "numerics", "method"]).words(6);
+        let mut costs = TextTable::new(&["model", "q", "v", "constraints", "CPU", "numerics", "method"]).words(6);
         models.iter().for_each(|model| costs.row(cost(model)));
         let outputs = self.costs.columns.iter().map(|column| column.name.as_str());
-        let mut errors = Table::new(&["largest difference"].into_iter().chain(outputs).collect::<Vec<_>>());
+        let mut errors = TextTable::new(&["largest difference"].into_iter().chain(outputs).collect::<Vec<_>>());
         models.iter().for_each(|model| errors.row(self.errors(model)));
         let failures = models.iter().filter_map(|model| Some((model, model.failure.as_ref()?)));
         let lines = failures.map(|(model, failure)| {

@@ -2,7 +2,7 @@
 
 use super::{MethodsAnswer, accuracy, milliseconds};
 use crate::error::clock;
-use crate::report::Table;
+use crate::report::TextTable;
 use crate::report::table::count;
 use crate::study::work_precision::{Cell, Lack, Outcome, Reference, WorkPrecision, cheapest_by_method};
 use std::fmt::Write;
@@ -86,13 +86,13 @@ fn tables(measured: &WorkPrecision, digits: u32) -> String {
     let (reached, others) = cheapest_by_method(&measured.cells, digits);
     let first = format!("{digits} digits or more");
     let headings = [&first, "accuracy", "digits", "CPU", "rhs", "factored", "max |φ|", "max |φ′|"];
-    let mut table = Table::new(&headings).words(1);
+    let mut table = TextTable::new(&headings).words(1);
     for cell in reached.iter().map(|place| &measured.cells[*place]) {
         table.row(line(cell));
     }
     let mut text = format!("\n{table}");
     if !others.is_empty() {
-        let mut table = Table::new(&["fewer digits", "accuracy", "digits", "CPU", "what then"]).words(1).words(4);
+        let mut table = TextTable::new(&["fewer digits", "accuracy", "digits", "CPU", "what then"]).words(1).words(4);
         for cell in others.iter().map(|place| &measured.cells[*place]) {
             let ends = measured.cells.iter().filter(|other| other.is_of(&cell.method));
             let then = ends.filter(|other| other.decades > cell.decades || cell.reason().is_some()).find_map(reason);

@@ -1,7 +1,7 @@
 //! A beam between two pins as a spring.
 
 use super::section::{area, expression};
-use super::two_force_link::Link;
+use super::two_force_link::PinnedLink;
 use crate::math::array::Each;
 use crate::scene::document::{add, elements, elements_mut, remove, text};
 use crate::simplify::{Facts, Proposal};
@@ -11,7 +11,7 @@ use serde_json::{Value, json};
 /// A straight beam between pins at its two ends as a spring without mass.
 pub fn massless(facts: &Facts, beam: &Value) -> Option<Proposal> {
     let name = text(beam, "name");
-    let link = Link::between_pins(facts, beam).filter(|_| beam.get("curvature").is_none())?;
+    let link = PinnedLink::between_pins(facts, beam).filter(|_| beam.get("curvature").is_none())?;
     let ends = link.pins.each_ref().each(|pin| on_line(facts, beam, &pin.own));
     let stiffness = format!("{}/({})", axial_stiffness(beam)?, link.length);
     let gap = (ends[0]? - ends[1]?).abs();

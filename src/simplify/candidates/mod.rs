@@ -19,7 +19,7 @@ mod stiff_connection;
 mod two_force_link;
 
 pub(super) use plane::Plane;
-pub(super) use two_force_link::Link;
+pub(super) use two_force_link::PinnedLink;
 
 use super::candidate::Candidate;
 

@@ -7,12 +7,10 @@ use crate::simplify::{Facts, PlacedMarker};
 use crate::tolerances::SAME;
 use serde_json::{Value, json};
 
-type Vector = [f64; 3];
-
 /// The plane that bodies move in: its x and y axes and its normal, in the world.
 pub struct Plane {
     /// x, y and normal.
-    pub axes: [Vector; 3],
+    pub axes: [[f64; 3]; 3],
 }
 
 impl Plane {
@@ -36,29 +34,29 @@ impl Plane {
     }
 
     /// The normal.
-    pub fn normal(&self) -> &Vector {
+    pub fn normal(&self) -> &[f64; 3] {
         &self.axes[2]
     }
 
     /// 1 or -1 where a direction is along the normal.
-    pub fn along(&self, direction: &Vector) -> Option<f64> {
+    pub fn along(&self, direction: &[f64; 3]) -> Option<f64> {
         let part = dot(direction, self.normal());
         ((part.abs() - 1.0).abs() < SAME).then(|| part.signum())
     }
 
     /// True if a direction lies in the plane.
-    pub fn contains(&self, direction: &Vector) -> bool {
+    pub fn contains(&self, direction: &[f64; 3]) -> bool {
         dot(direction, self.normal()).abs() < SAME
     }
 
     /// Angle of a direction in the plane.
-    pub fn angle(&self, direction: &Vector) -> f64 {
+    pub fn angle(&self, direction: &[f64; 3]) -> f64 {
         dot(&self.axes[1], direction).atan2(dot(&self.axes[0], direction))
     }
 
     /// Direction in the world of the planar x axis of a marker: its x axis where its z axis is along the normal, else
     /// that.
-    pub fn marker(&self, place: &PlacedMarker) -> Option<Vector> {
+    pub fn marker(&self, place: &PlacedMarker) -> Option<[f64; 3]> {
         let [x, _, z] = place.axes;
         match self.along(&z) {
             Some(_) => Some(x),
@@ -67,18 +65,18 @@ impl Plane {
     }
 
     /// Direction at the start of the planar x axis of what has this name: the ground, a body or a marker.
-    pub fn x_of(&self, facts: &Facts, name: &str) -> Option<Vector> {
+    pub fn x_of(&self, facts: &Facts, name: &str) -> Option<[f64; 3]> {
         let place = facts.place(name)?;
         if name.contains('.') { self.marker(&place) } else { Some(world(&place, &self.seen_from(name, &place)[0])) }
     }
 
     /// The axes of the plane in those of the ground or of a body that is at `place`.
-    pub fn seen_from(&self, name: &str, place: &PlacedMarker) -> [Vector; 3] {
+    pub fn seen_from(&self, name: &str, place: &PlacedMarker) -> [[f64; 3]; 3] {
         if name == "ground" { self.axes } else { self.seen_by(place) }
     }
 
     /// The axes of the plane as a body at `place` sees them: its own x axis first, if that lies in the plane.
-    fn seen_by(&self, place: &PlacedMarker) -> [Vector; 3] {
+    fn seen_by(&self, place: &PlacedMarker) -> [[f64; 3]; 3] {
         basis(exact(place.axes.each(|axis| dot(&axis, self.normal()))))
     }
 
@@ -117,26 +115,26 @@ impl Plane {
 }
 
 /// A direction of a body in the world.
-pub fn world(frame: &PlacedMarker, direction: &Vector) -> Vector {
+pub fn world(frame: &PlacedMarker, direction: &[f64; 3]) -> [f64; 3] {
     from_fn(|i| (0..3).map(|k| direction[k] * frame.axes[k][i]).sum())
 }
 
 /// A direction without what rounding has added to one along a coordinate axis.
-fn exact(direction: Vector) -> Vector {
+fn exact(direction: [f64; 3]) -> [f64; 3] {
     direction.each(|x| if (x - x.round()).abs() < SAME { x.round() + 0.0 } else { x })
 }
 
 /// Axes across and along `normal`: the first is the part of x, or of y where that is along the normal.
-fn basis(normal: Vector) -> [Vector; 3] {
+fn basis(normal: [f64; 3]) -> [[f64; 3]; 3] {
     let from = unit(usize::from((normal[0].abs() - 1.0).abs() < SAME));
-    let part: Vector = from_fn(|i| from[i] - dot(&from, &normal) * normal[i]);
+    let part: [f64; 3] = from_fn(|i| from[i] - dot(&from, &normal) * normal[i]);
     let size = norm(&part);
     let first = exact(part.each(|x| x / size));
     [first, exact(cross(&normal, &first)), normal]
 }
 
 /// The first two components of a vector in other axes.
-pub fn flat(axes: &[Vector; 3], vector: &Value) -> Option<Value> {
+pub fn flat(axes: &[[f64; 3]; 3], vector: &Value) -> Option<Value> {
     Some(json!([combined(&axes[0], vector)?, combined(&axes[1], vector)?]))
 }
 

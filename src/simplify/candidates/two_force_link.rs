@@ -23,13 +23,13 @@ impl Candidate for TwoForceLink {
 }
 
 fn proposal(facts: &Facts, body: &Value) -> Option<Proposal> {
-    let link = Link::new(facts, body)?;
+    let link = PinnedLink::new(facts, body)?;
     let edit = Box::new(move |scene: &mut Value| link.replace(scene));
     Some(Proposal::without_mass(facts, text(body, "name"), "becomes a distance without mass", edit))
 }
 
 /// A link with its two pins.
-pub struct Link {
+pub struct PinnedLink {
     name: String,
     /// Its ends.
     pub pins: [Tie; 2],
@@ -39,15 +39,15 @@ pub struct Link {
     axes: Vec<(String, [f64; 3])>,
 }
 
-impl Link {
+impl PinnedLink {
     /// The rigid body as a link; `None` where it is none.
-    pub fn new(facts: &Facts, body: &Value) -> Option<Link> {
+    pub fn new(facts: &Facts, body: &Value) -> Option<PinnedLink> {
         let is_free = text(body, "type") == "rigid" && body.get("free").is_none();
-        is_free.then(|| Link::between_pins(facts, body)).flatten()
+        is_free.then(|| PinnedLink::between_pins(facts, body)).flatten()
     }
 
     /// What two pins hold as a link; `None` where anything else acts on it.
-    pub fn between_pins(facts: &Facts, body: &Value) -> Option<Link> {
+    pub fn between_pins(facts: &Facts, body: &Value) -> Option<PinnedLink> {
         let scene = facts.scene();
         let name = text(body, "name");
         let joints: Vec<&Value> = acting(scene, "joints", name).collect();
@@ -68,7 +68,7 @@ impl Link {
         let axes =
             markers.map(|marker| Some((marker.clone(), along(facts.place(&marker)?.axes)))).collect::<Option<_>>()?;
         let length = length(body, [&pins[0].own, &pins[1].own])?;
-        (size > 0.0 && carrier(&pins[0].other) != carrier(&pins[1].other)).then(|| Link {
+        (size > 0.0 && carrier(&pins[0].other) != carrier(&pins[1].other)).then(|| PinnedLink {
             name: name.to_string(),
             pins,
             length,

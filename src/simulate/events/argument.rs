@@ -1,6 +1,6 @@
 //! The argument of a switching function over a step.
 
-use super::range::{Range, first_out};
+use super::range::{OpenInterval, first_out};
 use crate::math::Rate;
 
 /// Places at which the dense output is looked at where a step comes near a threshold.
@@ -8,7 +8,7 @@ const LOOKS_AT_STEP: usize = 8;
 
 /// An argument over a step of size `h`, given by its values and rates at both ends.
 pub struct Argument {
-    pub range: Range,
+    pub range: OpenInterval,
     pub a: Rate,
     pub b: Rate,
     pub h: f64,

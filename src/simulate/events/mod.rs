@@ -18,7 +18,7 @@ use crate::math::{Piece, Rate, Regime, Thresholds};
 use crate::system::{MechanicalSystem, OperatingPoint, Scratch};
 use crate::tolerances;
 use argument::Argument;
-use range::Range;
+use range::OpenInterval;
 
 /// An argument is at a threshold within this. Unit: `[1]` of its change over the step.
 const AT_THRESHOLD: f64 = 1e-10;
@@ -200,7 +200,7 @@ impl<'a> Events<'a> {
         for &number in of_state.iter().filter(|&&number| turned[number] < 2) {
             let a = start[number];
             let b = self.end[number];
-            let Some(range) = Range::of(pieces[number], &switches[number].thresholds) else {
+            let Some(range) = OpenInterval::of(pieces[number], &switches[number].thresholds) else {
                 if a.re != b.re {
                     return Ok(Some(Passage::AtStart(number)));
                 }
@@ -229,7 +229,7 @@ impl<'a> Events<'a> {
             if from >= first {
                 break;
             }
-            let Some(range) = Range::of(pieces[number], &switches[number].thresholds) else { continue };
+            let Some(range) = OpenInterval::of(pieces[number], &switches[number].thresholds) else { continue };
             let argument = Argument { range, a: start[number], b: self.end[number], h };
             let mut beyond = |theta: f64| {
                 between(theta, &mut |state| read(*system, scratch, pieces, state, within))?;
@@ -260,7 +260,7 @@ impl<'a> Events<'a> {
         let from = self.pieces[number];
         let thresholds = &self.switches[number].thresholds;
         let x = if is_at_start { self.start[number] } else { self.end[number] };
-        let (to, rate) = match Range::of(from, thresholds) {
+        let (to, rate) = match OpenInterval::of(from, thresholds) {
             Some(range) if range.nearest(x.re) == range.low => (from.saturating_sub(2), range.outward(x)),
             Some(range) => (from + 2, range.outward(x)),
             // From a threshold to the side on which the step found it.

@@ -4,24 +4,24 @@ use crate::math::{Piece, Rate, Thresholds};
 
 /// An open interval between two neighbouring thresholds.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Range {
+pub struct OpenInterval {
     pub low: f64,
     pub high: f64,
 }
 
-impl Range {
+impl OpenInterval {
     /// Range of a piece; `None` for the piece that is a threshold itself.
     pub fn of(piece: Piece, thresholds: &Thresholds) -> Option<Self> {
         let next = (piece / 2) as usize;
         let low = next.checked_sub(1).and_then(|k| thresholds.get(k));
         let high = thresholds.get(next);
-        let range = Range { low: low.unwrap_or(f64::NEG_INFINITY), high: high.unwrap_or(f64::INFINITY) };
+        let range = OpenInterval { low: low.unwrap_or(f64::NEG_INFINITY), high: high.unwrap_or(f64::INFINITY) };
         piece.is_multiple_of(2).then_some(range)
     }
 
     /// The range with a margin on both sides.
     pub fn widened(&self, margin: f64) -> Self {
-        Range { low: self.low - margin, high: self.high + margin }
+        OpenInterval { low: self.low - margin, high: self.high + margin }
     }
 
     pub fn contains(&self, x: f64) -> bool {
@@ -63,16 +63,16 @@ pub fn first_out(mut beyond: impl FnMut(f64) -> f64, mut from: f64, mut to: f64)
 
 #[cfg(test)]
 mod tests {
-    use super::{Range, Thresholds, first_out};
+    use super::{OpenInterval, Thresholds, first_out};
 
     #[test]
     fn a_piece_lies_between_its_thresholds() {
         let infinite = f64::INFINITY;
         let two = Thresholds::At([1.0, 2.0].into());
-        assert_eq!(Range::of(0, &two), Some(Range { low: -infinite, high: 1.0 }));
-        assert_eq!(Range::of(2, &two), Some(Range { low: 1.0, high: 2.0 }));
-        assert_eq!(Range::of(4, &two), Some(Range { low: 2.0, high: infinite }));
-        assert_eq!(Range::of(3, &two), None);
+        assert_eq!(OpenInterval::of(0, &two), Some(OpenInterval { low: -infinite, high: 1.0 }));
+        assert_eq!(OpenInterval::of(2, &two), Some(OpenInterval { low: 1.0, high: 2.0 }));
+        assert_eq!(OpenInterval::of(4, &two), Some(OpenInterval { low: 2.0, high: infinite }));
+        assert_eq!(OpenInterval::of(3, &two), None);
     }
 
     #[test]

@@ -1,6 +1,6 @@
 //! Times at which functions of t change their form.
 
-use super::range::{Range, first_out};
+use super::range::{OpenInterval, first_out};
 use super::watch::Watch;
 use crate::math::expression::{Switch, TimeFunction};
 use crate::math::{Interval, Piece, Regime, Taylor, Thresholds};
@@ -82,7 +82,7 @@ impl<'a> Timetable<'a> {
         let margin = |threshold: f64| round_off.max(8.0 * f64::EPSILON * (threshold.abs() + (x.d * t).abs()));
         let near = thresholds.nearest(x.x).filter(|&(_, threshold)| (x.x - threshold).abs() <= margin(threshold));
         let Some((k, threshold)) = near else { return thresholds.piece(x.x).unwrap_or(0) };
-        let range = Range { low: threshold, high: threshold }.widened(2.0 * margin(threshold));
+        let range = OpenInterval { low: threshold, high: threshold }.widened(2.0 * margin(threshold));
         let left = ThresholdSearch { argument, range, regime }.first_exit(t, self.end, &mut LOOKS_FOR_CHANGE.clone());
         let side = left.map_or(0, |left| if argument.at(left, regime) > threshold { 1 } else { -1 });
         (2 * k as Piece + 1).wrapping_add_signed(side)
@@ -92,8 +92,8 @@ impl<'a> Timetable<'a> {
         let mut first: Option<f64> = None;
         for (number, switch) in self.switches.iter().enumerate() {
             let Some(argument) = &switch.of_time else { continue };
-            let Some(range) = Range::of(pieces[number], &switch.thresholds) else { continue };
-            let exit = |range: Range, end: f64| {
+            let Some(range) = OpenInterval::of(pieces[number], &switch.thresholds) else { continue };
+            let exit = |range: OpenInterval, end: f64| {
                 let search = ThresholdSearch { argument, range, regime: Regime::held(pieces) };
                 search.first_exit(t, end, &mut LOOKS_FOR_CHANGE.clone())
             };
@@ -127,7 +127,7 @@ const DOUBLINGS: i32 = 20;
 /// Search for the time at which an argument leaves a range, with the pieces of a regime.
 struct ThresholdSearch<'s> {
     argument: &'s TimeFunction,
-    range: Range,
+    range: OpenInterval,
     regime: Regime<'s>,
 }
 

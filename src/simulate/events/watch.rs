@@ -18,14 +18,14 @@ const NEVER_MISSED: f64 = 1e-4;
 
 /// The functions of time of a run, and the time up to which they are resolved.
 pub struct Watch<'a> {
-    functions: Vec<Watched<'a>>,
+    functions: Vec<WatchedFunction<'a>>,
     /// Distance of samples, s.
     shortest: f64,
     /// Time up to which steps are resolved, s.
     seen: f64,
 }
 
-struct Watched<'a> {
+struct WatchedFunction<'a> {
     function: Function<'a>,
     /// True if its enclosures are too wide.
     is_loose: bool,
@@ -55,7 +55,7 @@ struct Quarter {
 
 impl<'a> Watch<'a> {
     pub fn new(functions: &'a [TimeFunction], span: f64) -> Self {
-        let watched = |function| Watched { function: Function::OfTime(function), is_loose: false };
+        let watched = |function| WatchedFunction { function: Function::OfTime(function), is_loose: false };
         let functions = functions.iter().map(watched).collect();
         Watch { functions, shortest: 0.5 * NEVER_MISSED * span, seen: f64::NEG_INFINITY }
     }
@@ -93,13 +93,20 @@ impl<'a> Watch<'a> {
 
     /// The step from `t`, at most `h`, that resolves a signal on a piece whose argument is `x` at `t`.
     pub fn resolved_along(&self, t: f64, h: f64, signal: &Signal, piece: Piece, x: Rate) -> f64 {
-        let mut watched = [Watched { function: Function::Along(signal, piece, x, t), is_loose: false }];
+        let mut watched = [WatchedFunction { function: Function::Along(signal, piece, x, t), is_loose: false }];
         seen_window(&mut watched, t, h, self.shortest, tolerances::RESOLVED_ROUGHLY, Regime::FREE)
     }
 }
 
 /// The part of a window from `t` on that resolves the functions.
-fn seen_window(functions: &mut [Watched], t: f64, whole: f64, shortest: f64, beside: f64, regime: Regime) -> f64 {
+fn seen_window(
+    functions: &mut [WatchedFunction],
+    t: f64,
+    whole: f64,
+    shortest: f64,
+    beside: f64,
+    regime: Regime,
+) -> f64 {
     let mut window = whole;
     while window > shortest {
         let unseen = functions.iter_mut().filter_map(|it| it.unseen(t, window, shortest, beside, regime));
@@ -112,7 +119,7 @@ fn seen_window(functions: &mut [Watched], t: f64, whole: f64, shortest: f64, bes
     window
 }
 
-impl Watched<'_> {
+impl WatchedFunction<'_> {
     /// The function and its rates; zero rates where an overflow makes them not finite, as in 1/cosh(t).
     fn at(&self, t: f64, regime: Regime) -> Taylor<f64> {
         let value = self.function.at(Taylor::time(t), regime);

@@ -110,7 +110,7 @@ fn magnitude(error: f64) -> f64 {
 /// Quantity that a map shows of its cells.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
-pub enum Quantity {
+pub enum CellQuantity {
     /// Largest |phi|, m or rad.
     Position,
     /// Largest |G v + phi_t|, m/s or rad/s.
@@ -125,15 +125,15 @@ pub enum Quantity {
     Seconds,
 }
 
-impl Quantity {
+impl CellQuantity {
     /// All quantities.
-    pub const ALL: [Quantity; 6] = [
-        Quantity::Position,
-        Quantity::Velocity,
-        Quantity::FinalPosition,
-        Quantity::Energy,
-        Quantity::Error,
-        Quantity::Seconds,
+    pub const ALL: [CellQuantity; 6] = [
+        CellQuantity::Position,
+        CellQuantity::Velocity,
+        CellQuantity::FinalPosition,
+        CellQuantity::Energy,
+        CellQuantity::Error,
+        CellQuantity::Seconds,
     ];
 
     /// Returns the name on the command line.
@@ -148,12 +148,12 @@ impl Quantity {
 
     fn texts(self) -> [&'static str; 2] {
         match self {
-            Quantity::Position => ["position", "position drift (m, rad)"],
-            Quantity::Velocity => ["velocity", "velocity drift (m/s, rad/s)"],
-            Quantity::FinalPosition => ["final_position", "final position drift (m, rad)"],
-            Quantity::Energy => ["energy", "relative energy error"],
-            Quantity::Error => ["error", "error of outputs / their scale"],
-            Quantity::Seconds => ["seconds", "computing time (s)"],
+            CellQuantity::Position => ["position", "position drift (m, rad)"],
+            CellQuantity::Velocity => ["velocity", "velocity drift (m/s, rad/s)"],
+            CellQuantity::FinalPosition => ["final_position", "final position drift (m, rad)"],
+            CellQuantity::Energy => ["energy", "relative energy error"],
+            CellQuantity::Error => ["error", "error of outputs / their scale"],
+            CellQuantity::Seconds => ["seconds", "computing time (s)"],
         }
     }
 
@@ -164,12 +164,12 @@ impl Quantity {
         }
         let drift = cell.drift.as_ref();
         let value = match self {
-            Quantity::Position => drift?.position.max,
-            Quantity::Velocity => drift?.velocity.max,
-            Quantity::FinalPosition => drift?.position.last,
-            Quantity::Energy => cell.relative_energy_error?,
-            Quantity::Error => cell.error?,
-            Quantity::Seconds => cell.seconds,
+            CellQuantity::Position => drift?.position.max,
+            CellQuantity::Velocity => drift?.velocity.max,
+            CellQuantity::FinalPosition => drift?.position.last,
+            CellQuantity::Energy => cell.relative_energy_error?,
+            CellQuantity::Error => cell.error?,
+            CellQuantity::Seconds => cell.seconds,
         };
         value.is_finite().then_some(value)
     }

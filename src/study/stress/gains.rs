@@ -1,6 +1,6 @@
 //! Measures of how well one pair of Baumgarte's gains fits many steps.
 
-use super::cell::{Cell, Quantity, Status};
+use super::cell::{Cell, CellQuantity, Status};
 use super::run::Stressed;
 use crate::tolerances;
 use serde::Serialize;
@@ -11,7 +11,7 @@ pub struct GainVerdict {
     /// Name of the integrator.
     pub method: String,
     /// Level of the drift.
-    pub quantity: Quantity,
+    pub quantity: CellQuantity,
     /// Result for each step.
     pub steps: Vec<StepVerdict>,
     /// The gain whose drift is nearest to the best of each step, of those that complete at all steps that were run up
@@ -31,7 +31,7 @@ pub struct StepVerdict {
     /// Step h, s.
     pub step: f64,
     /// Without stabilization.
-    pub none: Level,
+    pub none: GainRun,
     /// The completed gain of least drift.
     pub best: Option<Best>,
     /// Number of gains whose runs ended by themselves, with or without success.
@@ -39,16 +39,16 @@ pub struct StepVerdict {
     /// Number of the other gains.
     pub gains_left_out: usize,
     /// With the pair (2/h, 1/h^2).
-    pub own_gains: Level,
+    pub own_gains: GainRun,
     /// With one sweep of post-stabilization.
-    pub manifold: Level,
+    pub manifold: GainRun,
     /// With two sweeps of post-stabilization.
-    pub manifold_twice: Level,
+    pub manifold_twice: GainRun,
 }
 
 /// One simulation.
 #[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct Level {
+pub struct GainRun {
     /// How it ended.
     pub status: Status,
     /// Drift in the unit of the quantity; none where it did not complete.
@@ -99,11 +99,11 @@ impl Stressed {
     #[doc(hidden)]
     pub fn gains(&self) -> Vec<GainVerdict> {
         let methods = if self.map.name == "gain" { self.map.methods.len() } else { 0 };
-        let levels = [Quantity::Velocity, Quantity::Position];
+        let levels = [CellQuantity::Velocity, CellQuantity::Position];
         (0..methods).flat_map(|method| levels.map(|quantity| self.gain_verdict(method, quantity))).collect()
     }
 
-    fn gain_verdict(&self, method: usize, quantity: Quantity) -> GainVerdict {
+    fn gain_verdict(&self, method: usize, quantity: CellQuantity) -> GainVerdict {
         let values = self.map.x.values().unwrap_or_default();
         let levels = Levels { stressed: self, method, quantity };
         let steps: Vec<StepVerdict> =
@@ -125,7 +125,7 @@ impl Stressed {
 struct Levels<'a> {
     stressed: &'a Stressed,
     method: usize,
-    quantity: Quantity,
+    quantity: CellQuantity,
 }
 
 impl<'a> Levels<'a> {
@@ -159,11 +159,11 @@ impl<'a> Levels<'a> {
     fn at_step(&self, column: usize, step: f64) -> StepVerdict {
         let level = |label: &str| {
             let cell = self.named(label, column);
-            Level {
+            GainRun {
                 status: cell.map_or(Status::LeftOut, |cell| cell.status),
                 drift: cell.and_then(|cell| self.quantity.of(cell)),
                 error: cell.and_then(|cell| cell.error),
-                energy: cell.and_then(|cell| Quantity::Energy.of(cell)),
+                energy: cell.and_then(|cell| CellQuantity::Energy.of(cell)),
                 holds: cell.and_then(|cell| cell.holds),
             }
         };

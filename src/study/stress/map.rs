@@ -1,6 +1,6 @@
 //! Maps of two parameters, and the methods that are compared on them.
 
-use super::cell::Quantity;
+use super::cell::CellQuantity;
 use super::change::CellChange;
 use super::parameters::{StressParameter, find, registry};
 use super::subject::Subject;
@@ -20,7 +20,7 @@ pub struct AxisPlace {
 
 /// The parameter varied along one side of a map.
 #[derive(Clone)]
-pub struct Axis {
+pub struct MapAxis {
     /// Name of the parameter.
     pub name: String,
     /// Unit; empty for a ratio, and where it is not known.
@@ -38,16 +38,16 @@ pub struct Map {
     pub about: String,
     /// First axis, the columns.
     #[doc(hidden)]
-    pub x: Axis,
+    pub x: MapAxis,
     /// Second axis, the rows.
     #[doc(hidden)]
-    pub y: Axis,
+    pub y: MapAxis,
     /// Compared methods, one panel each.
     #[doc(hidden)]
     pub methods: Vec<AxisPlace>,
     /// Quantity that figures and tables show; files contain all.
     #[doc(hidden)]
-    pub quantity: Quantity,
+    pub quantity: CellQuantity,
 }
 
 impl AxisPlace {
@@ -69,10 +69,10 @@ impl AxisPlace {
 /// Number of values of an axis for which none are given.
 const COUNT: usize = 9;
 
-impl Axis {
+impl MapAxis {
     /// An axis of a stress parameter with given values.
     pub fn of(parameter: &'static StressParameter, values: Vec<f64>) -> Self {
-        Axis {
+        MapAxis {
             name: parameter.name.to_string(),
             unit: parameter.unit.to_string(),
             entries: values.into_iter().map(|value| AxisPlace::of(parameter, value)).collect(),
@@ -81,7 +81,7 @@ impl Axis {
 
     /// An axis of a stress parameter with its default values for the subject.
     pub fn usual(parameter: &'static StressParameter, subject: &Subject) -> Self {
-        Axis::of(parameter, (parameter.values)(subject))
+        MapAxis::of(parameter, (parameter.values)(subject))
     }
 
     /// Reads `EXTREME`, `EXTREME=A..B[:N][:log]` or `PARAMETER=A..B[:N][:log]`; without N nine values, those of stress
@@ -104,9 +104,9 @@ impl Axis {
             return Err(error.hint("`holonom stress --list` says which extremes there are"));
         }
         match (found, text.contains('=')) {
-            (Some(parameter), false) => Ok(Axis::usual(parameter, subject)),
-            (Some(parameter), true) => Ok(Axis::of(parameter, range(text, true)?.values())),
-            (None, _) => Ok(Axis::parameter(&range(text, false)?)),
+            (Some(parameter), false) => Ok(MapAxis::usual(parameter, subject)),
+            (Some(parameter), true) => Ok(MapAxis::of(parameter, range(text, true)?.values())),
+            (None, _) => Ok(MapAxis::parameter(&range(text, false)?)),
         }
     }
 
@@ -117,7 +117,7 @@ impl Axis {
             value: Some(value),
             changes: vec![CellChange::Parameter(name.clone(), value)],
         };
-        Axis { name: name.clone(), unit: String::new(), entries: range.values().into_iter().map(entry).collect() }
+        MapAxis { name: name.clone(), unit: String::new(), entries: range.values().into_iter().map(entry).collect() }
     }
 
     /// Returns name and unit.

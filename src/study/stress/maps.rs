@@ -1,8 +1,8 @@
 //! The maps offered for a scene.
 
-use super::cell::Quantity;
+use super::cell::CellQuantity;
 use super::change::CellChange;
-use super::map::{Axis, AxisPlace, Map};
+use super::map::{AxisPlace, Map, MapAxis};
 use super::parameters::find;
 use super::subject::Subject;
 use crate::error::{Error, Result};
@@ -16,7 +16,7 @@ pub struct MapEntry {
     pub about: &'static str,
     x: &'static str,
     y: &'static str,
-    quantity: Quantity,
+    quantity: CellQuantity,
     methods: fn() -> Vec<AxisPlace>,
     /// Changes the axes from the default values of their stress parameters.
     adapt: fn(&mut Map),
@@ -38,7 +38,7 @@ pub fn known() -> &'static [MapEntry] {
             )
         },
         MapEntry {
-            quantity: Quantity::FinalPosition,
+            quantity: CellQuantity::FinalPosition,
             methods: || {
                 let projected = method("index1", "dopri5", "manifold");
                 vec![method("index1", "dopri5", "none"), method("baumgarte", "dopri5", "none"), projected]
@@ -76,13 +76,13 @@ pub fn known() -> &'static [MapEntry] {
 
 /// A map of energy errors of adaptive methods.
 const fn usual(name: &'static str, about: &'static str, x: &'static str, y: &'static str) -> MapEntry {
-    let quantity = Quantity::Energy;
+    let quantity = CellQuantity::Energy;
     MapEntry { name, about, x, y, quantity, methods: adaptive, adapt: |_| {}, suits: |_| true }
 }
 
 /// A map of velocity drift.
 const fn drifting(name: &'static str, about: &'static str, x: &'static str, y: &'static str) -> MapEntry {
-    MapEntry { quantity: Quantity::Velocity, ..usual(name, about, x, y) }
+    MapEntry { quantity: CellQuantity::Velocity, ..usual(name, about, x, y) }
 }
 
 /// Returns the maps of these names, or all that make sense for the subject.
@@ -107,7 +107,7 @@ pub fn maps(subject: &Subject, names: &[String]) -> Result<Vec<Map>> {
 }
 
 /// Returns a map of two given axes, for the subject's own method and for it without stabilization.
-pub fn pair(subject: &Subject, x: Axis, y: Axis, quantity: Quantity) -> Map {
+pub fn pair(subject: &Subject, x: MapAxis, y: MapAxis, quantity: CellQuantity) -> Map {
     let label = {
         let method = &subject.base.method;
         format!("{} {} {}", method.formulation, method.integrator, method.projection)
@@ -132,7 +132,7 @@ impl MapEntry {
     }
 
     fn map(&self, subject: &Subject) -> Result<Map> {
-        let axis = |name: &str| -> Result<Axis> { Ok(Axis::usual(find(name)?, subject)) };
+        let axis = |name: &str| -> Result<MapAxis> { Ok(MapAxis::usual(find(name)?, subject)) };
         let mut map = Map {
             name: self.name.to_string(),
             about: self.about.to_string(),
@@ -172,7 +172,7 @@ fn by_method(map: &mut Map) {
         method("index1", "rk4", "none"),
         method("index1", "rk4", "manifold"),
     ];
-    map.y = Axis { name: "method".to_string(), unit: String::new(), entries: methods.to_vec() };
+    map.y = MapAxis { name: "method".to_string(), unit: String::new(), entries: methods.to_vec() };
 }
 
 fn fixed() -> Vec<AxisPlace> {

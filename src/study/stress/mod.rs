@@ -23,14 +23,14 @@ mod verdict;
 
 pub use cell::Cell;
 #[doc(hidden)]
-pub use cell::{Quantity, Status};
+pub use cell::{CellQuantity, Status};
 #[doc(hidden)]
 pub use change::CellChange;
 #[doc(hidden)]
-pub use gains::{Best, Farther, GainVerdict, Level, Steady, StepVerdict};
+pub use gains::{Best, Farther, GainRun, GainVerdict, Steady, StepVerdict};
 pub use map::Map;
 #[doc(hidden)]
-pub use map::{Axis, AxisPlace};
+pub use map::{AxisPlace, MapAxis};
 #[doc(hidden)]
 pub use maps::{MapEntry, known, maps, pair};
 #[doc(hidden)]

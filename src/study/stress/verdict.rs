@@ -1,7 +1,7 @@
 //! Summary of the cells of a map.
 
 use super::cell::{Cell, Status};
-use super::map::Axis;
+use super::map::MapAxis;
 use super::run::Stressed;
 use crate::math::bounds;
 use serde::Serialize;
@@ -125,7 +125,7 @@ fn range(values: impl Iterator<Item = f64>) -> Option<[f64; 2]> {
 }
 
 /// Returns the side of an axis on which all unsuccessful cells lie, if there is one and it is not all of the axis.
-fn bound(axis: &Axis, cells: &[&Cell], place: impl Fn(&Cell) -> usize) -> Option<Bound> {
+fn bound(axis: &MapAxis, cells: &[&Cell], place: impl Fn(&Cell) -> usize) -> Option<Bound> {
     let values = axis.values()?;
     let is_bad = |at: usize| {
         let ended = |cell: &&&Cell| matches!(cell.status, Status::Diverged | Status::Failed | Status::Refused);

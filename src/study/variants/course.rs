@@ -8,7 +8,7 @@ use crate::tolerances;
 
 /// An expression over the columns of a trajectory, with all that its values gave so far.
 pub struct Course {
-    quantity: Quantity,
+    quantity: CourseQuantity,
     reduction: Reduction,
     /// The level or the time of the reduction; not a number without one.
     argument: f64,
@@ -26,7 +26,7 @@ pub struct Course {
     at: Option<f64>,
 }
 
-enum Quantity {
+enum CourseQuantity {
     /// The column at this index.
     Column(usize),
     Expression(Box<Expression>),
@@ -43,10 +43,10 @@ impl Course {
         output_step: f64,
     ) -> Result<Self, ExpressionError> {
         let quantity = match headings.iter().position(|heading| *heading == text) {
-            Some(column) => Quantity::Column(column),
+            Some(column) => CourseQuantity::Column(column),
             None => {
                 let scope = Scope { parameters, variables: headings };
-                Quantity::Expression(Box::new(Expression::parse(text, &scope)?))
+                CourseQuantity::Expression(Box::new(Expression::parse(text, &scope)?))
             }
         };
         let argument = reduction.argument().map_or(Ok(f64::NAN), |number| number.evaluate(parameters))?;
@@ -72,8 +72,8 @@ impl Course {
     /// True if it reads the column at this index.
     pub fn reads(&self, column: usize) -> bool {
         match &self.quantity {
-            Quantity::Column(own) => *own == column,
-            Quantity::Expression(expression) => expression.depends_on(column),
+            CourseQuantity::Column(own) => *own == column,
+            CourseQuantity::Expression(expression) => expression.depends_on(column),
         }
     }
 
@@ -81,8 +81,8 @@ impl Course {
     pub fn add(&mut self, row: &[f64]) {
         let t = row[0];
         let x = match &self.quantity {
-            Quantity::Column(column) => row[*column],
-            Quantity::Expression(expression) => expression.eval(row),
+            CourseQuantity::Column(column) => row[*column],
+            CourseQuantity::Expression(expression) => expression.eval(row),
         };
         self.extremes.add(t, x);
         if let Some((before, from)) = self.last.filter(|(_, from)| from.is_finite() && x.is_finite()) {

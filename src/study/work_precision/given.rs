@@ -8,7 +8,7 @@ use std::path::Path;
 
 /// Values from a file: columns by name, one of them `t`.
 #[derive(Clone, Debug)]
-pub struct Given {
+pub struct GivenValues {
     /// File name.
     pub name: String,
     headings: Vec<String>,
@@ -18,26 +18,26 @@ pub struct Given {
 const HINT: &str =
     "give a table of comma-separated values with headings, as trajectory.csv is one: t, then quantities by name";
 
-impl Given {
+impl GivenValues {
     /// Reads a table with headings like `trajectory.csv`: `t` and quantities by name.
     ///
     /// # Errors
     /// A file that cannot be read or is no such table.
-    pub fn read(path: &Path) -> Result<Given> {
+    pub fn read(path: &Path) -> Result<GivenValues> {
         let text = crate::files::read_text(path).map_err(|error| Error::file(path, error))?;
-        Given::parse(&path.display().to_string(), &text).map_err(|error| error.in_file(path))
+        GivenValues::parse(&path.display().to_string(), &text).map_err(|error| error.in_file(path))
     }
 
     /// Reads the same from text.
     ///
     /// # Errors
     /// Text that is no table with a column `t`.
-    pub fn parse(name: &str, text: &str) -> Result<Given> {
+    pub fn parse(name: &str, text: &str) -> Result<GivenValues> {
         let Numbers { headings, rows } = Numbers::parse(text).map_err(|error| error.hint(HINT))?;
         if headings.iter().all(|heading| heading != "t") {
             return Err(Error::input("there is no column `t`").hint(HINT));
         }
-        Ok(Given { name: name.to_string(), headings, rows })
+        Ok(GivenValues { name: name.to_string(), headings, rows })
     }
 
     /// Returns the names of its quantities.

@@ -29,13 +29,13 @@ pub use advice::{Lack, cheapest_by_method, front};
 pub use cell::Held;
 pub use cell::{Cell, Outcome};
 #[doc(hidden)]
-pub use given::Given;
+pub use given::GivenValues;
 pub use grid::{Filter, Triple, grid};
 #[doc(hidden)]
 pub use models::tighter;
 #[doc(hidden)]
 pub use reference::{Pace, Reference};
-pub use runner::{Plan, Runner};
+pub use runner::{Runner, TradeoffPlan};
 
 use serde::{Deserialize, Serialize};
 

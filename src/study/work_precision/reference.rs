@@ -1,7 +1,7 @@
 //! The reference of accuracy.
 
 use super::climb::{Checked, MethodRuns, check, climb, confirmed, nothing, same};
-use super::given::Given;
+use super::given::GivenValues;
 use crate::error::Result;
 use crate::integrator;
 use crate::simulate::Span;
@@ -51,7 +51,7 @@ impl Reference {
     /// A run error where no method completes; a file that lacks a quantity or the times.
     pub(super) fn find(
         motion: &Motion,
-        given: Option<&Given>,
+        given: Option<&GivenValues>,
         digits: u32,
         budget: Duration,
     ) -> Result<(Reference, Vec<RunSample>)> {

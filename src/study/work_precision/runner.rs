@@ -2,7 +2,7 @@
 
 use super::WorkPrecision;
 use super::cell::Cell;
-use super::given::Given;
+use super::given::GivenValues;
 use super::grid::Triple;
 use super::reference::Reference;
 use crate::error::Result;
@@ -13,7 +13,7 @@ use std::time::Duration;
 
 /// Plan of a measurement.
 #[derive(Clone, Debug)]
-pub struct Plan {
+pub struct TradeoffPlan {
     /// Methods.
     pub triples: Vec<Triple>,
     /// Total time.
@@ -29,7 +29,7 @@ pub struct Plan {
     pub is_exhaustive: bool,
     /// Reference values that replace a computed reference.
     #[doc(hidden)]
-    pub given: Option<Given>,
+    pub given: Option<GivenValues>,
 }
 
 /// Part of the budget after which no more runs are begun.
@@ -38,14 +38,14 @@ const GRID: f64 = 0.95;
 /// Makes the runs.
 pub struct Runner<'a> {
     pub(super) motion: Motion<'a>,
-    pub(super) plan: &'a Plan,
+    pub(super) plan: &'a TradeoffPlan,
     pub(super) budget: Budget,
     /// Called before every run with its description.
-    watch: Box<Watch<'a>>,
+    watch: Box<ProgressWatch<'a>>,
 }
 
 /// Called with the results so far, and the next run.
-type Watch<'a> = dyn FnMut(&WorkPrecision, &str) + 'a;
+type ProgressWatch<'a> = dyn FnMut(&WorkPrecision, &str) + 'a;
 
 /// Reason why no more runs are made.
 pub(super) enum Pause {
@@ -55,7 +55,7 @@ pub(super) enum Pause {
 
 impl<'a> Runner<'a> {
     /// A runner for a plan; `watch` is called before every run.
-    pub fn new(motion: Motion<'a>, plan: &'a Plan, watch: impl FnMut(&WorkPrecision, &str) + 'a) -> Self {
+    pub fn new(motion: Motion<'a>, plan: &'a TradeoffPlan, watch: impl FnMut(&WorkPrecision, &str) + 'a) -> Self {
         Runner { motion, plan, budget: Budget::begin(plan.budget), watch: Box::new(watch) }
     }
 
@@ -70,7 +70,7 @@ impl<'a> Runner<'a> {
         self.motion.span.output_step = self.motion.duration() / result.rows as f64;
         if result.reference.is_none() {
             (self.watch)(result, "reference");
-            let Plan { digits, budget, .. } = self.plan;
+            let TradeoffPlan { digits, budget, .. } = self.plan;
             let reference = Reference::find(&self.motion, self.plan.given.as_ref(), *digits, *budget);
             // An interrupted search gives no reference.
             if (self.motion.is_stopped)() {
