@@ -386,6 +386,31 @@ fn files_are_short() {
     assert!(long.is_empty(), "more than {LONGEST}:\n{}", long.join("\n"));
 }
 
+/// The name of a type that a line at the margin declares.
+fn declared_type(text: &str) -> Option<&str> {
+    let item = text.strip_prefix("pub(crate) ").or_else(|| text.strip_prefix("pub(super) ")).unwrap_or(text);
+    let item = item.strip_prefix("pub ").unwrap_or(item);
+    let (kind, rest) = item.split_once(' ')?;
+    let name = rest.split(|c: char| !c.is_alphanumeric()).next()?;
+    ["struct", "enum", "trait", "type"].contains(&kind).then_some(name)
+}
+
+/// Each command has its `Args`.
+#[test]
+fn a_type_name_has_at_most_two_meanings() {
+    let mut places: BTreeMap<String, Vec<String>> = BTreeMap::new();
+    for source in sources() {
+        for (line, text) in &source.code {
+            if let Some(name) = declared_type(text) {
+                places.entry(name.to_string()).or_default().push(source.place(*line));
+            }
+        }
+    }
+    assert!(places.contains_key("Mechanism"), "types are read otherwise than they are written");
+    let many: Vec<_> = places.iter().filter(|(name, places)| *name != "Args" && places.len() > 2).collect();
+    assert!(many.is_empty(), "{many:#?}");
+}
+
 /// A tuple on the left takes one apart that a function returned; things that have nothing to do with each other are
 /// assigned by a statement each.
 #[test]
