@@ -41,6 +41,7 @@ impl<'a> Run<'a> {
     ///     fn force<S: Scalar>(&self, _t: S, _q: &[S], _v: &[S], f: &mut [S]) {
     ///         f[0] = S::zero();
     ///     }
+    ///     fn phi<S: Scalar>(&self, _t: S, _q: &[S], _phi: &mut [S]) {}
     ///     fn input_names(&self) -> Vec<String> {
     ///         vec!["motor".to_string()]
     ///     }

@@ -15,7 +15,7 @@ pub type Edit = Box<dyn Fn(&mut Value) -> Result<(), String> + Send + Sync>;
 ///
 /// ```
 /// use holonom::prepared::Overrides;
-/// use holonom::simplify::{Candidate, Facts, Proposal, Settings, Source, registry, simplify};
+/// use holonom::simplify::{Candidate, Facts, Proposal, SimplificationSettings, Source, registry, simplify};
 /// use serde_json::{Value, json};
 ///
 /// /// Springs have no preload, by the work of that.
@@ -54,7 +54,7 @@ pub type Edit = Box<dyn Fn(&mut Value) -> Result<(), String> + Send + Sync>;
 /// });
 /// let kinds = [registry(), &[&Unloaded]].concat();
 /// let source = Source::new(scene, &Overrides::default())?;
-/// let found = simplify(&source, &Settings::default(), &kinds, &|| false, &mut |_, _| ())?;
+/// let found = simplify(&source, &SimplificationSettings::default(), &kinds, &|| false, &mut |_, _| ())?;
 /// assert!(found.left_out().any(|trial| trial.what == ["spring has no preload"]));
 /// # Ok::<(), holonom::Error>(())
 /// ```
