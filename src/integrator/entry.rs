@@ -82,15 +82,15 @@ pub struct IntegratorEntry {
     /// ones.
     pub begins_anew: bool,
     /// Makes it for a system.
-    pub make: Make,
+    pub make: MakeIntegrator,
 }
 
 /// Makes an integrator for a system, with memory for states of [`Setup::len`].
-pub type Make = for<'s> fn(&Setup<'_, 's>) -> Result<Box<dyn Integrator + 's>>;
+pub type MakeIntegrator = for<'s> fn(&Setup<'_, 's>) -> Result<Box<dyn Integrator + 's>>;
 
 impl IntegratorEntry {
     /// A method of this order with fixed steps for vector fields, which goes with all projections; for struct update.
-    pub const fn new(name: &'static str, about: &'static str, order: usize, make: Make) -> Self {
+    pub const fn new(name: &'static str, about: &'static str, order: usize, make: MakeIntegrator) -> Self {
         IntegratorEntry {
             name,
             about,

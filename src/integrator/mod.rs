@@ -34,7 +34,7 @@ mod takes;
 use control::round_off;
 pub use control::{Control, Tightening, Tolerance, first_step};
 use entry::no_memory;
-pub use entry::{IntegratorEntry, Make, Setup, Steps};
+pub use entry::{IntegratorEntry, MakeIntegrator, Setup, Steps};
 pub use explicit::{ErrorEstimate, Explicit, Tableau};
 pub use problem::Problem;
 pub use stability::Stability;

@@ -6,8 +6,8 @@
 
 pub use crate::formulation::{Dae, DaeRow, Dynamics, Formulation, FormulationEntry, MakeFormulation, StepError};
 pub use crate::integrator::{
-    Accepted, Control, Dense, ErrorEstimate, Explicit, Integrator, IntegratorEntry, Problem, Setup, Stability, Step,
-    StepStart, Steps, Tableau, Tightening, Tolerance,
+    Accepted, Control, Dense, ErrorEstimate, Explicit, Integrator, IntegratorEntry, MakeIntegrator, Problem, Setup,
+    Stability, Step, StepStart, Steps, Tableau, Tightening, Tolerance,
 };
 pub use crate::method_spec::{Listed, OptionDoc};
 pub use crate::projection::{Projection, ProjectionEntry};

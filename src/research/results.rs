@@ -13,7 +13,7 @@ pub use crate::linearize::{
     frequency_response, lyapunov,
 };
 pub use crate::math::eigen::ComplexMatrix;
-pub use crate::math::expression::Parameters;
+pub use crate::math::expression::{ParameterError, Parameters};
 pub use crate::run::MarkerFrame;
 pub use crate::simulate::{Span, Start, Stop};
 pub use crate::study::{
@@ -23,4 +23,6 @@ pub use crate::study::{
 };
 pub use crate::system::Excitation;
 pub use crate::trajectory::Trajectory;
-pub use crate::validate::{Direction, PerturbationSequence, Settings, SpanCheck, Verdict, validate_along};
+pub use crate::validate::{
+    Direction, EventPassage, PerturbationSequence, Settings, SpanCheck, Verdict, validate_along,
+};

@@ -92,7 +92,7 @@ impl<'a> Run<'a> {
         }
     }
 
-    /// Drives an input of the system: by a closure `|t: f64, x: &Moment| ..`, or sampled by [`every`]. It adds to what
+    /// Drives an input of the system: by a closure `|t: f64, x: &Moment| ..`, or sampled by [`every`](super::every). It adds to what
     /// the scene gives the input. With automatic choice of methods, one is chosen at the start.
     ///
     /// The matrices of implicit methods do not contain the derivatives of a closure: with a stiff law explicit methods
@@ -127,7 +127,7 @@ impl<'a> Run<'a> {
         self
     }
 
-    /// Shows the motion to a sink, too. The run ends with [`End::Stopped`] where the sink is [done](Sink::is_done).
+    /// Shows the motion to a sink, too. The run ends with [`End::Stopped`](super::End::Stopped) where the sink is [done](Sink::is_done).
     pub fn shown_to(mut self, sink: impl Sink + 'a) -> Self {
         self.observers.sink = Box::new(sink);
         self.unless_begun("a sink is given")

@@ -12,8 +12,8 @@ mod rows;
 mod solver;
 
 use super::{
-    Accepted, Control, Dense, Integrator, IntegratorEntry, Make, Problem, Setup, Stability, Step, StepStart, Steps,
-    Tightening, refuses, takes,
+    Accepted, Control, Dense, Integrator, IntegratorEntry, MakeIntegrator, Problem, Setup, Stability, Step, StepStart,
+    Steps, Tightening, refuses, takes,
 };
 use crate::error;
 use crate::formulation::{self, Dae, Dynamics, StepError};
@@ -201,7 +201,7 @@ impl Dense for Diffsol<'_> {
 }
 
 /// A method of diffsol, which chooses its steps.
-const fn entry(name: &'static str, about: &'static str, order: usize, make: Make) -> IntegratorEntry {
+const fn entry(name: &'static str, about: &'static str, order: usize, make: MakeIntegrator) -> IntegratorEntry {
     IntegratorEntry { steps: Steps::Own, leads: true, ..IntegratorEntry::new(name, about, order, make) }
 }
 
