@@ -1,6 +1,5 @@
 //! Position sweeps: branches against closed forms.
 
-use holonom::prepared::Overrides;
 use holonom::sweep::{Family, Nearest, Point, Sweep};
 use std::f64::consts::TAU;
 
@@ -20,7 +19,7 @@ fn four_bar([a, b, c, g]: [f64; 4]) -> Family {
             {{ "name": "rocker", "type": "distance", "between": ["ground.B", "D"], "length": {c} }} ],
         "outputs": [{{ "name": "rocker", "measure": "expression", "value": "atan2(D.y, D.x - {g})" }}] }}"#
     );
-    Family::parse_with(&scene, &Overrides::default()).unwrap()
+    Family::parse(&scene).unwrap()
 }
 
 /// The rocker's angle on the branch with D above the line from C to B.
@@ -86,7 +85,7 @@ fn an_end_that_is_a_value_of_the_range_is_reached() {
             { "name": "rod", "type": "distance", "between": ["pin", "piston"], "length": 2 },
             { "name": "drive", "type": "equation", "expression": "piston.x - x" },
             { "name": "guide", "type": "equation", "expression": "piston.y" } ] }"#;
-    let sweep = sweep(&Family::parse_with(scene, &Overrides::default()).unwrap(), "x=1..3:9");
+    let sweep = sweep(&Family::parse(scene).unwrap(), "x=1..3:9");
     assert!(sweep.limits.is_empty(), "{:?}", sweep.limits);
     let pins: Vec<f64> = [0, 8].map(|i: usize| sweep.points[i].q[0]).to_vec();
     assert!((pins[0] + 1.0).abs() < 1e-6 && (pins[1] - 1.0).abs() < 1e-6, "{pins:?}");
@@ -112,7 +111,7 @@ fn what_is_held_follows_the_scene() {
             "initial": { "angle": "angle" } }],
         "joints": [{ "name": "pin", "type": "revolute", "between": ["ground.O", "rod.A"] }],
         "outputs": [{ "name": "angle", "measure": "angle", "of": "rod" }], "assembly": { "hold": ["rod.angle"] } }"#;
-    let sweep = sweep(&Family::parse_with(scene, &Overrides::default()).unwrap(), "angle=-4..7:5");
+    let sweep = sweep(&Family::parse(scene).unwrap(), "angle=-4..7:5");
     assert!(sweep.limits.is_empty());
     for Point { value, q, outputs, .. } in &sweep.points {
         assert!((q[0] - value.cos()).abs() < 1e-12 && (q[1] - value.sin()).abs() < 1e-12 && outputs[0] == q[2]);
@@ -133,7 +132,7 @@ fn values_beyond_what_expressions_are_defined_for_are_ends() {
     let scene = r#"{ "name": "root", "dimension": 2, "parameters": { "a": 1, "y": "sqrt(2 - a)" },
         "bodies": [{ "name": "p", "type": "point_mass", "mass": 1, "initial": { "position": [0, "y"] } }],
         "joints": [{ "name": "y", "type": "equation", "expression": "p.y - y" }] }"#;
-    let sweep = sweep(&Family::parse_with(scene, &Overrides::default()).unwrap(), "a=0..3:4");
+    let sweep = sweep(&Family::parse(scene).unwrap(), "a=0..3:4");
     let [limit] = sweep.limits.as_slice() else { panic!("{:?}", sweep.limits) };
     assert_eq!(sweep.points.len(), 3);
     assert!((limit.point.value - 2.0).abs() < 1e-6 && limit.reason.contains("sqrt(2 - a)"), "{limit:?}");
@@ -141,8 +140,7 @@ fn values_beyond_what_expressions_are_defined_for_are_ends() {
 
 #[test]
 fn redundant_constraints_are_not_singular() {
-    let family =
-        Family::parse_with(include_str!("../models/parallelogram_redundant.json"), &Overrides::default()).unwrap();
+    let family = Family::parse(include_str!("../models/parallelogram_redundant.json")).unwrap();
     let sweep = sweep(&family, "angle0=0.5..1.2:5");
     // The rank indicator depends on the order of elimination and on which dependent row is dropped. It is never below
     // the smallest singular value of the unit rows that are left, with the held one: 0.033 to 0.093 here over all

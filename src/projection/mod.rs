@@ -24,7 +24,7 @@ pub trait Projection: Send {
     /// direction in v, as [`MechanicalSystem::rate`] makes them, and [`MechanicalSystem::normalize`] follows.
     ///
     /// # Errors
-    /// A state that cannot be corrected: the step is tried smaller.
+    /// A state that cannot be corrected: the step is tried smaller, and a fixed one ends the run.
     fn project(&mut self, t: f64, q: &mut [f64], v: &mut [f64], dynamics: &mut Dynamics) -> Result<(), StepError>;
 }
 

@@ -2,9 +2,10 @@
 //!
 //! An explicit method begins. Whenever the work since the last comparison has doubled, and wherever a run stops, an
 //! implicit one, or the explicit one again, may try from there ([`Contest`]); the better one continues. So the total
-//! cost is at most a few times that of the better method on each part of the motion. Work is counted in evaluations: a run is repeatable bit by bit. An
-//! implicit method that takes over early begins at the start: errors of explicit steps are too small to matter, and
-//! still far from the slow motion in the norm of the stiff forces that it would have to follow.
+//! cost is at most a few times that of the better method on each part of the motion. Work is counted in evaluations: a
+//! run is repeatable bit by bit. An implicit method that takes over early begins at the start: errors of explicit steps
+//! are too small to matter, and still far from the slow motion in the norm of the stiff forces that it would have to
+//! follow.
 
 use super::checkpoint::flat;
 use super::contest::{Contest, Mark, Quiet, unseen};

@@ -97,20 +97,27 @@ pub fn validate_changed(
     let mut variation = Variation::new(system, start.t, &start.q, &start.v)?;
     let subject = Subject::new(&mut variation, start, settings, is_over, change)?;
     let reach = Reach::new(&subject, settings)?;
+    let mut cut = Vec::new();
+    let sequences = sequences(&subject, &settings.directions, &reach, &mut cut)?;
     let longest = reach.followed.min(1.0 / subject.speed.fastest.max(f64::MIN_POSITIVE));
     let (frozen, charts) = frozen(&subject, longest)?;
     let measured = measured(&subject, &mut variation, &frozen.steps, charts, settings.inputs)?;
-    let mut cut = Vec::from_iter(measured.is_none().then(|| "A, B, C and D were not compared".to_string()));
+    let is_compared = measured.is_some();
+    cut.extend((!is_compared).then(|| NOT_COMPARED.to_string()));
     let measured = measured.unwrap_or_default();
-    // What costs most comes last: the budget ends it, and the verdict on the model stands.
-    let sequences = sequences(&subject, &settings.directions, &reach, &mut cut)?;
     let mut unchecked = Vec::new();
     let inputs =
         if settings.inputs { inputs(&subject, 0.1 * reach.followed, &mut unchecked, &mut cut)? } else { Vec::new() };
     let Reach { followed, singular, event, .. } = reach;
     let is_projected = subject.is_projected;
-    let evidence =
-        Evidence { sequences: &sequences, inputs: &inputs, measured: &measured, event: &event, is_projected };
+    let evidence = Evidence {
+        sequences: &sequences,
+        inputs: &inputs,
+        measured: &measured,
+        event: &event,
+        is_projected,
+        is_compared,
+    };
     let verdict = judge(&evidence);
     Ok(Validation {
         t: start.t,
@@ -231,7 +238,11 @@ struct Evidence<'e> {
     event: &'e Option<Event>,
     /// True for the plain projection, which belongs to no chart.
     is_projected: bool,
+    /// False if the time was over before A, B, C and D were measured.
+    is_compared: bool,
 }
+
+const NOT_COMPARED: &str = "A, B, C and D were not compared";
 
 fn judge(evidence: &Evidence) -> Verdict {
     let rows = evidence.sequences.iter().map(|sequence| (&sequence.direction, &sequence.order_ltv));
@@ -243,7 +254,8 @@ fn judge(evidence: &Evidence) -> Verdict {
     let order = if lowest.is_finite() { format!("order {lowest:.2}") } else { "exact to rounding".to_string() };
     let untold: Vec<String> = rows.filter(|(_, decay)| is_untold(decay)).map(|(name, _)| name.clone()).collect();
     let are_others_right = orders.filter(|decay| !is_untold(decay)).all(is_second);
-    let entries: Vec<String> = evidence.measured.all().map(|(name, deviation)| told(name, deviation)).collect();
+    let mut entries: Vec<String> = evidence.measured.all().map(|(name, deviation)| told(name, deviation)).collect();
+    entries.extend((!evidence.is_compared).then(|| NOT_COMPARED.to_string()));
     let entries = if entries.is_empty() { String::new() } else { format!("{}; ", entries.join(", ")) };
     let text = match (ltv, lti) {
         (false, _) if are_others_right => format!(

@@ -297,6 +297,9 @@ fn validate_ends_within_its_budget() {
     assert!(short.contains("along random:1 the motion was followed for"), "{short}");
     assert!(short.contains("the input `torque` was not checked") && short.contains("--budget"), "{short}");
     let followed = || place.json("here/validation-0.3.json")["followed"].as_f64().unwrap();
+    let verdict = place.json("here/validation-0.3.json")["verdict"]["text"].to_string();
+    let not_compared = "A, B, C and D were not compared";
+    assert_eq!(short.contains(not_compared), verdict.contains(not_compared), "{short}{verdict}");
     let part = followed();
     let long = said("100ms");
     assert!(!long.contains("warning"), "{long}");
